@@ -10,18 +10,19 @@ class Contour:
     """`lines`: blocks behind the start-up block, which goes from `begin` to `entry` in the direction of the first one;
     `points`: where they end."""
 
-    def __init__(self, seed, arcs, small_turns=True):
+    def __init__(self, seed, arcs, small_turns=True, digits=9):
         self.small_turns = small_turns
+        self.digits = digits
         self.random = random.Random(seed)
         self.side = self.random.choice((41, 42))
         self.radius = round(self.random.choice((self.random.uniform(0.5, 6), self.random.uniform(5, 14))), 3)
         self.heading = math.radians(self.random.uniform(0, 360))
-        self.at = (self.random.uniform(-50, 50), self.random.uniform(-50, 50))
+        self.at = self.counted(self.random.uniform(-50, 50), self.random.uniform(-50, 50))
         self.entry = self.at
         self.lines, self.points = [], []
         first = self.heading
         length = self.radius + self.random.uniform(2, 20)
-        self.begin = (self.at[0] - length * math.cos(first), self.at[1] - length * math.sin(first))
+        self.begin = self.counted(self.at[0] - length * math.cos(first), self.at[1] - length * math.sin(first))
         for index in range(6):
             if index:
                 self.turn()
@@ -30,7 +31,11 @@ class Contour:
             else:
                 self.line()
             self.between()
-        self.leave = (self.at[0] + self.random.uniform(10, 20), self.at[1] + self.random.uniform(10, 20))
+        self.leave = self.counted(self.at[0] + self.random.uniform(10, 20), self.at[1] + self.random.uniform(10, 20))
+
+    def counted(self, x, y):
+        """A point that a control reads as it is written: FANUC cuts off the digits that it does not count."""
+        return round(x, self.digits), round(y, self.digits)
 
     def turn(self):
         kind = self.random.random()
@@ -42,7 +47,7 @@ class Contour:
 
     def line(self):
         length = self.random.uniform(15, 60)
-        self.at = (self.at[0] + length * math.cos(self.heading), self.at[1] + length * math.sin(self.heading))
+        self.at = self.counted(self.at[0] + length * math.cos(self.heading), self.at[1] + length * math.sin(self.heading))
         self.points.append(self.at)
         self.lines.append(f"G1 {written(self.at)}")
 
@@ -52,7 +57,7 @@ class Contour:
         toward = self.heading + way * math.pi / 2
         centre = (self.at[0] + radius * math.cos(toward), self.at[1] + radius * math.sin(toward))
         start, angle = self.at, toward + math.pi + way * sweep
-        self.at = (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
+        self.at = self.counted(centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
         self.heading += way * sweep
         self.points.append(self.at)
         self.lines.append(f"G{3 if way > 0 else 2} {written(self.at)} I{centre[0] - start[0]:.9f} J{centre[1] - start[1]:.9f}")

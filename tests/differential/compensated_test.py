@@ -13,7 +13,9 @@ from generated_test import ORACLES, SKIPPED, available
 SEEDS = range(1, 601)
 FEWEST_ENDED = 500  # in the others the tool does not fit somewhere, for both
 FEWEST_CORNERS = {"inner": 300, "outer": 300, "tangent": 200, "acute": 100}
-NEAR = 2e-4  # mm; the words are rounded for FANUC
+INCREMENT = 4  # digits of the finest increment system of FANUC that lengths are counted in here, IS-C
+NEAR = 2e-4  # mm; two increments
+STRAIGHT_ON = 2e-5  # rad: what two ends that are counted turn a line of 15 mm
 
 
 def modules():
@@ -50,7 +52,7 @@ class Fanuc(unittest.TestCase):
         folder, path = folder_file("program.ngc")
         with folder:
             for seed in SEEDS:
-                contour = Contour(seed, arcs=False, small_turns=False)
+                contour = Contour(seed, arcs=False, small_turns=False, digits=INCREMENT)
                 path.write_text(contour.linuxcnc())
                 theirs = run(path)
                 if theirs.error:
@@ -65,7 +67,7 @@ class Fanuc(unittest.TestCase):
 
 
 def points_of_fanuc(comparison, path):
-    report = comparison.report_of(path, dialect="fanuc-30i")
+    report = comparison.report_of(path, "--increment-system", "IS-C", dialect="fanuc-30i")
     return report["alarm"] or [(move["to"]["X"], move["to"]["Y"]) for move in comparison.moves_of_tool(report)][1:]
 
 
@@ -85,8 +87,8 @@ def expected_points(moves, contour, corners):
     # The end of a contour that goes on: what is left is a corner without an arc.
     plain = len(contour.points) - 1 - sum(move[0] == "arc" for _, move in points)
     turns = [turn_at(contour, i) for i in range(len(contour.points) - 1)]
-    corners["tangent"] += sum(abs(turn) < 1e-6 for turn in turns)
-    corners["inner"] += plain - sum(abs(turn) < 1e-6 for turn in turns)
+    corners["tangent"] += sum(abs(turn) < STRAIGHT_ON for turn in turns)
+    corners["inner"] += plain - sum(abs(turn) < STRAIGHT_ON for turn in turns)
     return without_repeats(result)
 
 

@@ -44,6 +44,20 @@ class Use(Windows):
         self.write("nc/o1001.NC", BAD.replace("1001", "1002"))
         self.assertIn("in 2 files", self.assertSame("check", "nc", "nc/o1001.NC", code=1))
 
+    def test_paths_longer_than_260_characters(self):
+        place = "/".join(["Auftrag " + "x" * 60] * 6)
+        self.write(f"{place}/O1001.nc", BAD)
+        self.write(f"{place}/O9101.nc", PROVED)
+        self.write(f"{place}/feedhold.toml", 'dialect = "fanuc-0i"\n')
+        self.assertIn("in 2 files", self.assertSame("check", place, code=1))
+        self.assertIn("Z:/", self.feedhold("check", "--format", "json", on_windows(self.folder / place), code=1).stdout.decode())
+        self.assertSame("prove", f"{place}/O9101.nc")
+        self.feedhold("certify", f"{place}/O9101.nc", "-o", f"{place}/evidence")
+        self.assertTrue((self.folder / place / "evidence/certificate.json").exists())
+        self.assertSame("recheck", f"{place}/evidence")
+        self.feedhold(*FIX, f"{place}/O1001.nc", code=None)
+        self.assertNotEqual((self.folder / place / "O1001.nc").read_bytes(), BAD.encode())
+
     def test_one_file_by_two_names(self):
         self.write("O1001.nc", BAD)
         told = json.loads(self.feedhold("check", "--format", "json", "O1001.nc", on_windows(self.folder / "O1001.nc"),

@@ -1,6 +1,7 @@
 // The platform on Windows.
 #include "surface/cli/platform.h"
 
+#include "base/source/long_paths.h"
 #include "base/source/source_file.h"
 #include "base/support/sha256.h"
 
@@ -12,8 +13,7 @@
 #include <windows.h>
 
 /// The words of the command line, as every C program for Windows gets them (msvcrt.dll); with `expand`, a word with `*`
-/// or
-/// `?` becomes the files that it names, as no shell of Windows does it.
+/// or `?` becomes the files that it names, as no shell of Windows does it.
 extern "C" int __cdecl __wgetmainargs(int *count, wchar_t ***words, wchar_t ***environment, int expand, int *newMode);
 
 namespace feedhold {
@@ -39,6 +39,7 @@ bool takesSequences(DWORD name) {
 } // namespace
 
 std::vector<std::string> beginProgram(int, char **) {
+  allowLongPaths();
   for (std::FILE *stream : {stdin, stdout, stderr})
     ::_setmode(::_fileno(stream), _O_BINARY);
   ::SetConsoleOutputCP(CP_UTF8);
