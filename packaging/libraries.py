@@ -75,8 +75,8 @@ def inside(built):
     linked = [told(COMPILERS[built.platform], f"-print-file-name={name}").strip() for name in ARCHIVES[built.platform]]
     files = headers(built.build) | {str(Path(path).resolve()) for path in linked if path.startswith("/")}
     owners = subprocess.run(["dpkg", "-S", *sorted(files)], capture_output=True, text=True).stdout
-    names = {line.split(": ")[0].split(", ")[0] for line in owners.splitlines()} - {SYSTEM}
-    found = [installed(name) for name in names]
+    names = {line.split(": ")[0].split(", ")[0] for line in owners.splitlines()}  # `libc6-dev:amd64`, `fmt`
+    found = [installed(name) for name in names if name.split(":")[0] != SYSTEM]
     if built.platform in (WINDOWS, WASM):
         found.append(cross_built(built.build))
     unknown = {each.source for each in found if each.source not in LICENCES}

@@ -44,6 +44,22 @@ class Use(Windows):
         self.write("nc/o1001.NC", BAD.replace("1001", "1002"))
         self.assertIn("in 2 files", self.assertSame("check", "nc", "nc/o1001.NC", code=1))
 
+    def test_shares(self):
+        """Wine looks for servers below unc/ beside its drives."""
+        self.write("O1001.nc", BAD)
+        server = self.prefix / "dosdevices/unc/server"
+        server.mkdir(parents=True)
+        (server / "Programme").symlink_to(self.folder)
+        for given in (r"\\server\Programme", r"\\server\Programme\O1001.nc", "//server/Programme/O1001.nc"):
+            with self.subTest(given):
+                told = self.feedhold("check", "--format", "concise", given, code=1).stdout.decode()
+                self.assertIn("//server/Programme/O1001.nc:3:1: ", told)
+        told = json.loads(self.feedhold("check", "--format", "sarif", r"\\server\Programme", code=1).stdout)
+        location = told["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
+        self.assertEqual(location["uri"], "file://server/Programme/O1001.nc")
+        self.feedhold(*FIX, r"\\server\Programme\O1001.nc", code=None)
+        self.assertNotEqual((self.folder / "O1001.nc").read_bytes(), BAD.encode())
+
     def test_paths_longer_than_260_characters(self):
         place = "/".join(["Auftrag " + "x" * 60] * 6)
         self.write(f"{place}/O1001.nc", BAD)

@@ -273,7 +273,7 @@ private:
     for (const Json &source : document_.at("sources")) {
       std::string roles;
       for (const Json &role : source.at("roles"))
-        roles += (roles.empty() ? "" : ", ") + text(role);
+        roles.append(roles.empty() ? "" : ", ").append(text(role)); // with `+`, GCC 12 warns of a length that cannot be
       add("<tr><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"hash\">{}</td></tr>\n", text(source.at("path")),
           roles, number(source.at("bytes")), text(source.at("sha256")));
     }
