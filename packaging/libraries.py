@@ -51,7 +51,7 @@ def told(*command):
 def headers(build):
     """Outside of this source tree, as the compiler has noted them; links lead to what they stand for."""
     lines = told("ninja", "-C", str(build), "-t", "deps").splitlines()
-    files = {str(Path(line.strip()).resolve()) for line in lines if line.startswith("    /")}
+    files = {str((build / line.strip()).resolve()) for line in lines if line.startswith("    ")}
     return {file for file in files if not file.startswith(f"{ROOT}/")}
 
 

@@ -199,7 +199,7 @@ class Try(InBrowser):
     def test_run_without_end_is_reported(self):
         self.write("O1\nN1G01X1.F100.\nG01X2.\nGOTO1\nM30\n")
         self.click("run")
-        self.assertIn("endless", self.browser.wait("document.querySelector('#drawing details pre')?.textContent"))
+        self.assertIn("runs for ever", self.browser.wait("document.querySelector('#drawing details pre')?.textContent"))
 
     # ---- the page as a whole ----
 
