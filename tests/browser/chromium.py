@@ -90,10 +90,10 @@ class Page:
         self.call("Page.navigate", url=address)
 
     def wait(self, expression, seconds=LONGEST_WAIT):
-        """Until the expression is true in the page; what it was then."""
+        """Until the expression is true in the page; what it was then, True for a part of the page."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
-            if value := self.evaluate(expression):
+            if value := self.evaluate(f"(value => value instanceof Node ? true : value)({expression})"):
                 return value
             time.sleep(0.05)
         raise TimeoutError(f"never true: {expression}")

@@ -46,11 +46,17 @@ def made_place():
     with zipfile.ZipFile(DIST / f"feedhold-{VERSION}-windows-x86_64.zip") as archive:
         archive.extractall(top)
     place = Place(top / "wine", next(top.glob("*/feedhold.exe")), packaged.linux_program())
-    atexit.register(subprocess.run, [Path(WINE).with_name("wineserver"), "-k"], env=place.environment,
-                    stderr=subprocess.DEVNULL)
+    atexit.register(at_server, place, "-k")
+    # For all runs: one that a run starts keeps the pipes of that run open, and the run seems not to end.
+    at_server(place, "-p")
     subprocess.run([WINE, "cmd.exe", "/c", "exit"], env=place.environment, capture_output=True, check=True,
                    timeout=LONGEST_RUN)
     return place
+
+
+def at_server(place, option):
+    subprocess.run([Path(WINE).with_name("wineserver"), option], env=place.environment, stdin=subprocess.DEVNULL,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 class Windows(Packaged):

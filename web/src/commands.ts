@@ -14,7 +14,8 @@ export function fileOf(text: string): string {
 
 function request(source: Source, command: string, options: string[], collect?: string): Request {
   const file = fileOf(source.text);
-  const dialect = source.dialect === "" ? [] : ["--dialect", source.dialect];
+  const isSaid = source.dialect === "" || options.includes("--dialect"); // as witnesses do
+  const dialect = isSaid ? [] : ["--dialect", source.dialect];
   const words = [command, ...dialect, ...options, file];
   return { words, files: { [file]: source.text }, ...(collect === undefined ? {} : { collect }) };
 }
