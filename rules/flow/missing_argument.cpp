@@ -1,4 +1,5 @@
 // missing-argument: the macro computes with `#18`, and the call does not pass R.
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 #include "rules/flow/flow_view.h"
 
@@ -112,7 +113,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const ProgramName &named = file.model->programs[reader].name;
     const std::string name =
-        named.empty() ? std::filesystem::path(file.source->path()).filename().generic_string() : toString(named);
+        named.empty() ? pathText(std::filesystem::path(file.source->path()).filename()) : toString(named);
     reporter.report(
         {.message =
              fmt::format("{} computes with `#{}` ({}), but this call does not pass it", name, vacant.variable, *letter),

@@ -1,4 +1,5 @@
 // unread-argument: the call passes R, and nothing in the macro reads `#18`.
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 #include "rules/flow/flow_view.h"
 
@@ -59,7 +60,7 @@ bool isShown(const ProgramFile &file, ProgramId program, std::uint32_t variable)
 /// One of the two lies in a folder around that of the other: not the subroutine of another machine.
 bool isNear(const ProgramFile &file, const FileContext &context) {
   const auto folderOf = [](const SourceFile &source) {
-    return std::filesystem::path(source.path()).parent_path().generic_string();
+    return pathText(std::filesystem::path(source.path()).parent_path());
   };
   const std::string own = folderOf(context.source);
   const std::string other = folderOf(*file.source);

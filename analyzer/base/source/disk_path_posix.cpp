@@ -1,10 +1,12 @@
 // diskPath where upper and lower case differ.
 #include "base/source/disk_path.h"
 
+#include "base/source/path_text.h"
+
 namespace feedhold {
 
 std::filesystem::path diskPath(const std::filesystem::path &path) {
-  return std::filesystem::absolute(path).lexically_normal();
+  return normalPath(std::filesystem::absolute(path));
 }
 
 } // namespace feedhold

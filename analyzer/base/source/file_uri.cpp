@@ -1,5 +1,6 @@
 #include "base/source/file_uri.h"
 
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 
 #include <fmt/format.h>
@@ -53,7 +54,7 @@ std::string uriOfAbsolute(std::string_view path) {
 }
 
 std::string uriOfPath(const std::filesystem::path &path) {
-  return uriOfAbsolute(std::filesystem::absolute(path).lexically_normal().generic_string());
+  return uriOfAbsolute(pathText(normalPath(std::filesystem::absolute(path))));
 }
 
 std::filesystem::path pathOfUri(std::string_view uri) {

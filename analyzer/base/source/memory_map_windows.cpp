@@ -1,6 +1,7 @@
 // MemoryMap on Windows: a copy of the bytes, because a file that is mapped there cannot be replaced.
 #include "base/source/memory_map.h"
 
+#include "base/source/path_text.h"
 #include "base/support/system_words.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ private:
 
 Error systemError(const std::filesystem::path &path, std::string_view what) {
   const std::error_code code(static_cast<int>(::GetLastError()), std::system_category());
-  return {fmt::format("cannot {} `{}`: {}", what, path.generic_string(), inWords(code))};
+  return {fmt::format("cannot {} `{}`: {}", what, pathText(path), inWords(code))};
 }
 
 bool readAll(HANDLE file, char *bytes, std::uint64_t size) {
@@ -59,16 +60,16 @@ Result<MemoryMap> MemoryMap::open(const std::filesystem::path &path, std::uint64
   if (attributes == INVALID_FILE_ATTRIBUTES)
     return systemError(path, "open");
   if ((attributes & FILE_ATTRIBUTE_DIRECTORY) != 0)
-    return Error{fmt::format("`{}` is a folder, not a program", path.generic_string())};
+    return Error{fmt::format("`{}` is a folder, not a program", pathText(path))};
   const FileHandle file(path);
   LARGE_INTEGER size = {};
   if (!file.isOpen())
     return systemError(path, "open");
   if (::GetFileType(file.get()) != FILE_TYPE_DISK || ::GetFileSizeEx(file.get(), &size) == 0)
-    return Error{fmt::format("`{}` is not a regular file", path.generic_string())};
+    return Error{fmt::format("`{}` is not a regular file", pathText(path))};
   const auto length = static_cast<std::uint64_t>(size.QuadPart);
   if (length > largestSize)
-    return Error{fmt::format("`{}` is larger than {} MiB; split it", path.generic_string(), largestSize >> 20)};
+    return Error{fmt::format("`{}` is larger than {} MiB; split it", pathText(path), largestSize >> 20)};
   if (length == 0)
     return MemoryMap();
   auto bytes = std::make_unique<char[]>(length);

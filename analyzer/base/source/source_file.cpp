@@ -3,6 +3,7 @@
 
 #include "base/source/line_index.h"
 #include "base/source/memory_map.h"
+#include "base/source/path_text.h"
 
 #include <algorithm>
 #include <mutex>
@@ -84,7 +85,7 @@ Result<SourceFile> SourceFile::open(const std::filesystem::path &path) {
   Result<MemoryMap> map = MemoryMap::open(path, kLargestSize);
   if (!map)
     return map.error();
-  return SourceFile(std::make_shared<const Contents>(path.generic_string(), map.take()));
+  return SourceFile(std::make_shared<const Contents>(pathText(path), map.take()));
 }
 
 SourceFile SourceFile::fromText(std::string path, std::string text) {

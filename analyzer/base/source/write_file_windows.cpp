@@ -1,6 +1,7 @@
 // Writing files on Windows: beside the file, brought to the disk, then moved over it.
 #include "base/source/write_file.h"
 
+#include "base/source/path_text.h"
 #include "base/support/system_words.h"
 
 #include <fmt/format.h>
@@ -85,9 +86,9 @@ private:
 
 std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   std::error_code error;
-  const fs::path target = fs::canonical(path, error);
-  if (error)
-    return Error{fmt::format("no longer exists: {}", inWords(error))};
+  if (!fs::exists(path, error))
+    return Error{"no longer exists"};
+  const fs::path target = canonicalPath(path, error);
   if (!fs::is_regular_file(target, error))
     return Error{"is not a regular file"};
   if (const DWORD attributes = ::GetFileAttributesW(target.c_str()); (attributes & FILE_ATTRIBUTE_READONLY) != 0) {

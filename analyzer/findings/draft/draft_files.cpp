@@ -1,6 +1,7 @@
 // Drafts for all programs of a set of files, and writes them.
 #include "findings/draft/draft.h"
 
+#include "base/source/path_text.h"
 #include "base/source/write_file.h"
 #include "base/support/parallel.h"
 #include "findings/draft/sidecar_text.h"
@@ -40,7 +41,7 @@ std::optional<fs::path> placeFor(const Project &project, ProgramId program) {
     return file.path.parent_path() / fmt::format("O{:04}.contract", *number);
   if (program != ProgramId(0))
     return std::nullopt;
-  return file.path.parent_path() / (file.path.filename().generic_string() + ".contract");
+  return file.path.parent_path() / (pathText(file.path.filename()) + ".contract");
 }
 
 std::string whyUntouched(const Project &project, ProgramId program, bool update) {
@@ -69,8 +70,8 @@ DraftedProgram prepared(const Project &project, ProgramId program, bool update) 
     drafted.untouched = "another program has its number, and no name of a contract file means this one alone";
   std::error_code ignored;
   if (drafted.untouched.empty() && !update && fs::exists(drafted.place, ignored))
-    drafted.untouched = fmt::format("{} is there; `--update` adds to it and keeps what you wrote",
-                                    drafted.place.filename().generic_string());
+    drafted.untouched =
+        fmt::format("{} is there; `--update` adds to it and keeps what you wrote", pathText(drafted.place.filename()));
   if (drafted.untouched.empty())
     drafted.before = drafted.after = readText(drafted.place);
   return drafted;
@@ -138,7 +139,7 @@ std::vector<PathProblem> writeDrafts(const std::vector<DraftedProgram> &drafts) 
   for (const DraftedProgram &drafted : drafts)
     if (drafted.isChanged())
       if (const std::optional<Error> error = saveFile(drafted.place, drafted.after))
-        problems.push_back({drafted.place.generic_string(), error->message});
+        problems.push_back({pathText(drafted.place), error->message});
   return problems;
 }
 

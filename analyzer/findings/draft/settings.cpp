@@ -1,6 +1,8 @@
 // See the header.
 #include "findings/draft/settings.h"
 
+#include "base/source/path_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,7 +85,7 @@ std::vector<Setting> settingsOf(const Project &project, ProgramId program) {
       continue;
     const ProgramName &name = at.file->model.programs[at.program].name;
     if (const auto value = valueAt(at, variable))
-      settings.push_back({variable, *value, name.empty() ? at.file->path.filename().generic_string() : toString(name),
+      settings.push_back({variable, *value, name.empty() ? pathText(at.file->path.filename()) : toString(name),
                           at.file->source.lineOf(at.file->tree.blocks[at.block].begin)});
   }
   return settings;

@@ -1,5 +1,6 @@
 #include "findings/project/affected.h"
 
+#include "base/source/path_text.h"
 #include "findings/project/discovery.h"
 #include "findings/project/project.h"
 #include "findings/project/remaps.h"
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path absoluteOf(const fs::path &path) { return fs::absolute(path).lexically_normal(); }
+fs::path absoluteOf(const fs::path &path) { return normalPath(fs::absolute(path)); }
 
 bool isBelow(const fs::path &path, const fs::path &folder) {
   const fs::path relative = path.lexically_relative(folder);
@@ -79,7 +80,7 @@ public:
         configFolders_.push_back(path.parent_path());
       if (config.source != ConfigSource::None && isRemapFileName(path))
         remapFolders_.push_back(path.parent_path());
-      if (kindOfFileName(path.filename().generic_string()) && !fs::exists(path, ignored))
+      if (kindOfFileName(pathText(path.filename())) && !fs::exists(path, ignored))
         gone_.insert(path.parent_path());
     }
     everything_ = config.source == ConfigSource::Named && changed_.contains(absoluteOf(config.file));
@@ -140,11 +141,11 @@ Affected affectedByNamed(const std::vector<std::string> &named, const CheckOptio
       changed.push_back(absoluteOf(path));
     // A text file that is named by chance counts as the walk through its folder sees it.
     const bool isByChance =
-        fs::exists(path, ignored) && kindOfFileName(fs::path(path).filename().generic_string()) == FoundBy::Content;
+        fs::exists(path, ignored) && kindOfFileName(pathText(fs::path(path).filename())) == FoundBy::Content;
     if (isFolder || (!isSidecarName(path) && !isConfigName(path) && !isRemapFileName(path) && !isByChance))
       among.paths.push_back(path);
     if (!isFolder)
-      folders.insert(folder.empty() ? "." : folder.generic_string());
+      folders.insert(folder.empty() ? "." : pathText(folder));
   }
   among.paths.insert(among.paths.end(), folders.begin(), folders.end());
   Affected affected = affectedBy(changed, among, known);

@@ -1,6 +1,7 @@
 // Searches folders upwards and remembers the answer for each.
 #include "findings/project/config_finder.h"
 
+#include "base/source/path_text.h"
 #include "base/source/source_file.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 
 const Config *ConfigFinder::forFolder(const fs::path &folder) {
   switch (options_.source) {
-  case ConfigSource::Nearest: return search(fs::absolute(folder).lexically_normal()).get();
+  case ConfigSource::Nearest: return search(normalPath(fs::absolute(folder))).get();
   case ConfigSource::Named: return search({}).get();
   case ConfigSource::None: break;
   }
@@ -37,13 +38,13 @@ ConfigFinder::Found ConfigFinder::search(const fs::path &folder) {
 ConfigFinder::Found ConfigFinder::load(const fs::path &file) {
   Result<SourceFile> source = SourceFile::open(file);
   if (!source) {
-    problems_.push_back({file.generic_string(), source.error().message});
+    problems_.push_back({pathText(file), source.error().message});
     return nullptr;
   }
-  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  const fs::path folder = normalPath(fs::absolute(file)).parent_path();
   ConfigText text = readConfig(source.value().text(), folder, known_);
   for (const ConfigError &error : text.errors)
-    problems_.push_back({fmt::format("{}:{}:{}", file.generic_string(), error.line, error.column), error.message});
+    problems_.push_back({fmt::format("{}:{}:{}", pathText(file), error.line, error.column), error.message});
   if (!text.errors.empty())
     return nullptr;
   return std::make_shared<const Config>(std::move(text.config));

@@ -2,6 +2,7 @@
 #include "findings/project/discovery.h"
 
 #include "base/source/disk_path.h"
+#include "base/source/path_text.h"
 #include "base/support/system_words.h"
 #include "base/support/text.h"
 #include "findings/project/shards.h"
@@ -34,14 +35,14 @@ bool isProgramNumberName(std::string_view stem) {
 
 /// `./part.nc` -> `part.nc`: what a walk of the current folder puts before every name.
 fs::path plainPath(const fs::path &path) {
-  const std::string text = path.generic_string();
+  const std::string text = pathText(path);
   return text.starts_with("./") && text.size() > 2 ? fs::path(text.substr(2)) : path;
 }
 
-std::string shownPath(const fs::path &path) { return plainPath(path).generic_string(); }
+std::string shownPath(const fs::path &path) { return pathText(plainPath(path)); }
 
 std::string relativeTo(const fs::path &folder, const fs::path &path) {
-  return fs::absolute(path).lexically_normal().lexically_relative(folder).generic_string();
+  return pathText(normalPath(fs::absolute(path)).lexically_relative(folder));
 }
 
 bool matchesAny(const std::vector<std::string> &patterns, const Config &config, const fs::path &path) {
@@ -125,7 +126,7 @@ private:
   void visit(const fs::directory_entry &entry, const Config *config) {
     const fs::path &path = entry.path();
     std::error_code ignored; // what cannot be asked for its kind is no regular file for us
-    const std::string name = path.filename().generic_string();
+    const std::string name = pathText(path.filename());
     if (name.starts_with('.') || (config != nullptr && matchesAny(config->exclude, *config, path)))
       return;
     if (entry.is_directory(ignored)) {
@@ -140,7 +141,7 @@ private:
       take(path, *kind, config);
     else
       result_.others.push_back(
-          {shownPath(path), fmt::format("a `{}` file", path.extension().generic_string()), SkipKind::NoProgram});
+          {shownPath(path), fmt::format("a `{}` file", pathText(path.extension())), SkipKind::NoProgram});
   }
 
   static std::optional<FoundBy> kindOf(const fs::path &path, std::string_view name, const Config *config) {

@@ -1,5 +1,6 @@
 #include "findings/project/git_changes.h"
 
+#include "base/source/path_text.h"
 #include "base/support/process.h"
 #include "base/support/text.h"
 
@@ -47,7 +48,7 @@ Result<std::string> startOf(const fs::path &repository, const std::string &revis
   if (!commit.value())
     return Error{fmt::format("{}: there is no revision `{}`; name a commit, a branch or a tag that `git log` knows (a "
                              "shallow clone may lack it)",
-                             repository.generic_string(), revision)};
+                             pathText(repository), revision)};
   const std::string hash = withoutLineEnd(*commit.value());
   const auto base = git(repository, {"merge-base", hash, "HEAD"});
   if (!base)
@@ -67,11 +68,11 @@ std::optional<Error> addChanges(const fs::path &repository, const std::string &r
     if (!answer)
       return answer.error();
     if (!answer.value())
-      return Error{fmt::format("{}: `git {}` failed", repository.generic_string(), question.front())};
+      return Error{fmt::format("{}: `git {}` failed", pathText(repository), question.front())};
     std::string_view rest = *answer.value();
     while (!rest.empty()) {
       const std::string_view name = rest.substr(0, rest.find('\0'));
-      changed.insert((repository / name).lexically_normal());
+      changed.insert(normalPath(repository / name));
       rest.remove_prefix(std::min(name.size() + 1, rest.size()));
     }
   }
@@ -91,8 +92,8 @@ Result<std::vector<fs::path>> changedSince(const std::string &revision, const st
     if (!up.value())
       return Error{fmt::format(
           "{}: is not in a git repository that git can read (`git status` there says why); --changed-since needs one",
-          folder.generic_string())};
-    repositories.insert(fs::absolute(folder / withoutLineEnd(*up.value())).lexically_normal() / "");
+          pathText(folder))};
+    repositories.insert(normalPath(fs::absolute(folder / withoutLineEnd(*up.value()))) / "");
   }
   std::set<fs::path> changed;
   for (const fs::path &repository : repositories)

@@ -1,5 +1,6 @@
 #include "findings/project/machine_settings.h"
 
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 #include "findings/project/config.h"
 #include "language/model/word_habits.h"
@@ -220,7 +221,7 @@ std::vector<Machine> machinesOf(std::span<const std::shared_ptr<ProjectFile>> fi
   for (const auto &file : files) {
     if (!file)
       continue;
-    std::string folder = std::filesystem::path(file->shown).parent_path().generic_string();
+    std::string folder = pathText(std::filesystem::path(file->shown).parent_path());
     // Files with different settings of the configuration are kept apart.
     Machine &machine = machines[{folder, file->dialect->id, textOf(file->dialect->switches)}];
     machine.folder = std::move(folder);

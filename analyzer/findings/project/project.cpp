@@ -1,5 +1,6 @@
 #include "findings/project/project.h"
 
+#include "base/source/path_text.h"
 #include "base/support/parallel.h"
 #include "base/support/text.h"
 #include "findings/project/content.h"
@@ -22,7 +23,7 @@ Folder programsIn(const fs::path &folder, const std::shared_ptr<const OpenTexts>
   for (fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, error), end; !error && at != end;
        at.increment(error)) {
     std::error_code ignored;
-    const std::string name = at->path().filename().generic_string();
+    const std::string name = pathText(at->path().filename());
     if (!name.starts_with('.') && kindOfFileName(name) && at->is_regular_file(ignored))
       names.push_back(folder / name);
   }
@@ -32,8 +33,8 @@ Folder programsIn(const fs::path &folder, const std::shared_ptr<const OpenTexts>
     Result<SourceFile> source = openSource(name, open);
     if (!source || whyNotText(source.value().text()))
       continue;
-    const LanguageGuess guess = guessLanguage(source.value().text(), name.generic_string(), known.dialects);
-    const bool isKnownName = kindOfFileName(name.filename().generic_string()) == FoundBy::Extension;
+    const LanguageGuess guess = guessLanguage(source.value().text(), pathText(name), known.dialects);
+    const bool isKnownName = kindOfFileName(pathText(name.filename())) == FoundBy::Extension;
     if (guess.looksLikeProgram && (isKnownName || guess.hasCodes))
       programs.emplace_back(name, source.take());
   }
@@ -49,14 +50,14 @@ Error whyNothing(const Workload &workload, const std::string &path) {
 
 /// In one spelling, however the paths were named.
 std::string folderNameOf(const ProjectFile &file) {
-  return file.path.empty() ? "" : fs::absolute(file.path).lexically_normal().parent_path().generic_string();
+  return file.path.empty() ? "" : pathText(normalPath(fs::absolute(file.path)).parent_path());
 }
 
 void connect(Project &project, LoadGraphs graphs, unsigned jobs) {
   std::vector<ModelledFile> models;
   for (std::size_t i = 0; i < project.files.size(); ++i) {
     const ProjectFile &file = *project.files[i];
-    models.push_back({FileId(i), folderNameOf(file), file.path.stem().generic_string(), &file.model});
+    models.push_back({FileId(i), folderNameOf(file), pathText(file.path.stem()), &file.model});
   }
   project.callGraph = CallGraph(std::move(models));
   if (graphs == LoadGraphs::No)
@@ -122,7 +123,7 @@ std::unique_ptr<const Project> loadProject(const WorkItem &item, const ProgramOp
     const std::shared_ptr<const Folder> folder = folderOf(item.path.parent_path(), options, known);
     for (const auto &[path, source] : *folder)
       if (path.filename() != item.path.filename())
-        project->files.push_back(read({path.generic_string(), path, source, first.dialect}));
+        project->files.push_back(read({pathText(path), path, source, first.dialect}));
   }
   connect(*project, LoadGraphs::Yes, 1);
   return project;

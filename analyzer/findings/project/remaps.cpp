@@ -1,6 +1,7 @@
 // Reads `REMAP=` lines.  Files that an `.ini` includes are not read, nor remaps of T, S and F, which have no number.
 #include "findings/project/remaps.h"
 
+#include "base/source/path_text.h"
 #include "base/source/source_file.h"
 #include "base/support/text.h"
 
@@ -43,7 +44,7 @@ std::vector<CodeName> remapsIn(const std::filesystem::path &folder) {
 
 } // namespace
 
-bool isRemapFileName(const std::filesystem::path &path) { return toLower(path.extension().generic_string()) == ".ini"; }
+bool isRemapFileName(const std::filesystem::path &path) { return toLower(pathText(path.extension())) == ".ini"; }
 
 std::vector<CodeName> RemapFinder::inFolders(const std::vector<std::filesystem::path> &folders) {
   std::set<CodeName> all;

@@ -1,5 +1,6 @@
 #include "findings/project/sidecars.h"
 
+#include "base/source/path_text.h"
 #include "findings/project/config.h"
 #include "findings/project/content.h"
 
@@ -20,7 +21,7 @@ constexpr std::string_view kMachineFile = "machine.contract";
 
 bool isThere(const fs::path &path, const std::shared_ptr<const OpenTexts> &open) {
   std::error_code ignored; // what cannot be asked for is not there
-  return (open && open->contains(fs::absolute(path).lexically_normal())) || fs::exists(path, ignored);
+  return (open && open->contains(normalPath(fs::absolute(path)))) || fs::exists(path, ignored);
 }
 
 /// The names of the set-up's file: in the folder of the program, then in those above, up to that of the project.
@@ -30,7 +31,7 @@ std::vector<fs::path> machineNames(const fs::path &file) {
   fs::path shown = file.parent_path();
   for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty();
        folder = folder.parent_path(), shown /= "..") {
-    names.push_back((shown / kMachineFile).lexically_normal());
+    names.push_back(normalPath(shown / kMachineFile));
     const bool isTop = fs::exists(folder / kConfigFileName, ignored) || fs::exists(folder / ".git", ignored);
     if (isTop || folder == folder.parent_path())
       break;
@@ -46,16 +47,15 @@ template <typename Visit> void forEachName(const fs::path &file, const ProgramMo
       visit(pathOf(fmt::format("O{}", *program.name.number)), program.name.number);
       visit(pathOf(fmt::format("O{:04}", *program.name.number)), program.name.number);
     }
-  visit(pathOf(file.stem().generic_string()), std::optional<std::uint32_t>());
-  visit(pathOf(file.filename().generic_string()), std::optional<std::uint32_t>());
+  visit(pathOf(pathText(file.stem())), std::optional<std::uint32_t>());
+  visit(pathOf(pathText(file.filename())), std::optional<std::uint32_t>());
 }
 
 Sidecar read(const fs::path &path, std::optional<std::uint32_t> program, const std::shared_ptr<const OpenTexts> &open) {
   Result<SourceFile> source = openSource(path, open);
   const auto notText = source ? whyNotText(source.value().text()) : std::nullopt;
   if (!source || notText)
-    return {SourceFile::fromText(path.generic_string(), ""), program,
-            source ? std::string(*notText) : source.error().message};
+    return {SourceFile::fromText(pathText(path), ""), program, source ? std::string(*notText) : source.error().message};
   return {source.take(), program, std::nullopt};
 }
 

@@ -1,5 +1,6 @@
 #include "findings/project/watched.h"
 
+#include "base/source/path_text.h"
 #include "findings/project/config.h"
 
 namespace feedhold {
@@ -22,7 +23,7 @@ void addFolder(const fs::path &folder, Depth depth, Stamps &stamps) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (at->path().filename().generic_string().starts_with('.'))
+    if (pathText(at->path().filename()).starts_with('.'))
       continue;
     if (at->is_regular_file(ignored))
       addFile(at->path(), stamps);
@@ -37,7 +38,7 @@ Stamps stampsOf(const std::vector<std::string> &paths, const std::vector<std::st
   Stamps stamps;
   for (const std::string &path : paths) {
     std::error_code error;
-    const fs::path absolute = fs::absolute(path).lexically_normal();
+    const fs::path absolute = normalPath(fs::absolute(path));
     const bool isFolder = fs::is_directory(absolute, error);
     const fs::path folder = isFolder ? absolute : absolute.parent_path();
     addFolder(folder, isFolder ? Depth::AllBelow : Depth::FolderAlone, stamps);
@@ -45,7 +46,7 @@ Stamps stampsOf(const std::vector<std::string> &paths, const std::vector<std::st
       addFile(above / kConfigFileName, stamps);
   }
   for (const std::string &path : ignored)
-    stamps.erase(fs::absolute(path).lexically_normal());
+    stamps.erase(normalPath(fs::absolute(path)));
   return stamps;
 }
 

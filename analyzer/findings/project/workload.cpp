@@ -1,6 +1,7 @@
 // Finds, opens and looks at the files in parallel, then settles what holds for each.
 #include "findings/project/workload.h"
 
+#include "base/source/path_text.h"
 #include "base/support/parallel.h"
 #include "findings/project/content.h"
 #include "findings/project/discovery.h"
@@ -61,8 +62,8 @@ std::vector<const FilePattern *> matchingPatterns(const FoundFile &file) {
   std::vector<const FilePattern *> matching;
   if (file.config->files.empty())
     return matching;
-  const std::filesystem::path absolute = std::filesystem::absolute(file.path).lexically_normal();
-  const std::string relative = absolute.lexically_relative(file.config->folder).generic_string();
+  const std::filesystem::path absolute = normalPath(std::filesystem::absolute(file.path));
+  const std::string relative = pathText(absolute.lexically_relative(file.config->folder));
   for (const FilePattern &pattern : file.config->files)
     if (patternMatches(pattern.path, relative))
       matching.push_back(&pattern);
@@ -79,7 +80,7 @@ DialectChoice choiceOf(GuessBasis basis) {
 }
 
 std::filesystem::path folderOf(const std::filesystem::path &file) {
-  return std::filesystem::absolute(file).lexically_normal().parent_path();
+  return normalPath(std::filesystem::absolute(file)).parent_path();
 }
 
 /// The folders that were named.  A person names one, a hook thousands of files.
@@ -87,8 +88,7 @@ class NamedFolders {
 public:
   explicit NamedFolders(const CheckOptions &options) {
     for (const std::string &path : options.paths)
-      places_.try_emplace((std::filesystem::absolute(path).lexically_normal() / "").parent_path().native(),
-                          places_.size());
+      places_.try_emplace((normalPath(std::filesystem::absolute(path)) / "").parent_path().native(), places_.size());
   }
 
   /// The folder of a file and those above it, up to the one that was named: of several the first.
@@ -294,7 +294,7 @@ std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, co
                                     const KnownNames &known) {
   std::set<std::filesystem::path> here, folders;
   for (const Candidate &candidate : candidates) {
-    here.insert(std::filesystem::absolute(candidate.found.path).lexically_normal());
+    here.insert(normalPath(std::filesystem::absolute(candidate.found.path)));
     if (candidate.found.foundBy == FoundBy::Name)
       folders.insert(folderOf(candidate.found.path));
   }

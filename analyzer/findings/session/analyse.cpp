@@ -1,6 +1,7 @@
 // Loads all files as one project, then runs the rules file by file.
 #include "findings/session/analyse.h"
 
+#include "base/source/path_text.h"
 #include "base/support/parallel.h"
 #include "base/support/text.h"
 #include "base/support/turns.h"
@@ -162,7 +163,7 @@ std::vector<Finding> refuse(const WorkItem &item) {
     finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));
   finding.diagnostic.notes.emplace_back(item.foreign->way);
   Finding result = toFinding(std::move(finding), *item.profile);
-  result.fingerprint = fingerprintOfFile(*result.rule, item.path.filename().generic_string());
+  result.fingerprint = fingerprintOfFile(*result.rule, pathText(item.path.filename()));
   return {std::move(result)};
 }
 

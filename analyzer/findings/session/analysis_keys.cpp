@@ -1,5 +1,6 @@
 #include "findings/session/analysis_keys.h"
 
+#include "base/source/path_text.h"
 #include "base/support/record.h"
 #include "base/support/sha256.h"
 #include "findings/project/config.h"
@@ -36,7 +37,7 @@ std::string hashOf(const Profile &profile) {
 std::set<fs::path> foldersOf(std::span<const WorkItem> items) {
   std::set<fs::path> folders;
   for (const WorkItem &item : items)
-    for (fs::path folder = fs::absolute(item.path).lexically_normal().parent_path();
+    for (fs::path folder = normalPath(fs::absolute(item.path)).parent_path();
          folders.insert(folder).second && folder.has_relative_path();)
       folder = folder.parent_path();
   return folders;
@@ -49,10 +50,10 @@ void addContracts(RecordWriter &writer, const std::set<fs::path> &folders) {
     for (const fs::directory_entry &entry : fs::directory_iterator(folder, ignored))
       if (isSidecarName(entry.path()))
         if (const Result<SourceFile> file = SourceFile::open(entry.path()))
-          contracts.emplace(entry.path().filename().generic_string(), sha256(file.value().text()));
+          contracts.emplace(pathText(entry.path().filename()), sha256(file.value().text()));
     if (contracts.empty())
       continue;
-    writer.text(folder.lexically_proximate(fs::current_path()).generic_string());
+    writer.text(pathText(folder.lexically_proximate(fs::current_path())));
     writer.list(contracts, [&](const auto &row) {
       writer.text(row.first);
       writer.text(row.second);

@@ -1,5 +1,7 @@
 #include "findings/session/baseline.h"
 
+#include "base/source/path_text.h"
+
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -26,7 +28,7 @@ bool operator<(const KnownObligation &a, const KnownObligation &b) { return keyO
 namespace {
 
 std::string pathFrom(const fs::path &folder, const std::string &shown) {
-  return fs::absolute(shown).lexically_normal().lexically_relative(folder).generic_string();
+  return pathText(normalPath(fs::absolute(shown)).lexically_relative(folder));
 }
 
 /// Which entries a run speaks of.

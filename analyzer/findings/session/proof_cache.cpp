@@ -1,6 +1,7 @@
 // A file for each proof, `ab/cdef..`: a line that says what it is, its key, the hash of the rest, the record.
 #include "findings/session/proof_cache.h"
 
+#include "base/source/path_text.h"
 #include "base/source/write_file.h"
 #include "base/support/sha256.h"
 #include "findings/project/config.h"
@@ -38,12 +39,12 @@ private:
 void addFiles(Material &material, const Project &programs) {
   material.add(programs.files.size());
   for (const auto &file : programs.files) {
-    material.add(file->path.filename().generic_string());
+    material.add(pathText(file->path.filename()));
     material.add(file->source.text());
     const auto &sources = file->contracts.sources;
     material.add(sources.size());
     for (std::size_t i = 1; i < sources.size(); ++i) {
-      material.add(fs::path(sources[i].path()).filename().generic_string());
+      material.add(pathText(fs::path(sources[i].path()).filename()));
       material.add(sources[i].text());
     }
   }

@@ -37,6 +37,7 @@ public:
         tell(context_, MoveKind::Unmodelled, start);
       return;
     }
+    distance_ = distanceOf(context_, words_);
     closeCircle(*plane, start);
     const Circle circle = circleIn(*plane, start);
     raise(alarmsOf(circle, start), follows);
@@ -53,6 +54,8 @@ private:
   struct Circle {
     Plane plane;
     Value first, second; // centre
+    std::array<Value, 2>
+        fromStart; // the same, as distances from the start: unless the control takes them as coordinates
     Truth byRadius;
     Truth byCentre;
     Truth beside; // there is a distance to the centre on the axis that is not of the plane
@@ -64,10 +67,12 @@ private:
   };
 
   Circle circleIn(const Plane &plane, const Point &start) {
-    const auto [first, second] = centreOf(plane, start);
+    const auto fromStart = centreFromStart(plane);
+    const auto [first, second] = centreOf(plane, start, fromStart);
     return {plane,
             first,
             second,
+            fromStart,
             present('R'),
             context_.either(present(plane.firstCentre), present(plane.secondCentre)),
             centreBeside(plane),
@@ -98,7 +103,7 @@ private:
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);
     alarms.withoutCentre = withoutCentre(circle);
-    const Truth differs = radiiDiffer(circle.plane, start, circle.first, circle.second);
+    const Truth differs = radiiDiffer(circle, start);
     const Truth isCircle = interpretation_.both(interpretation_.both(circle.mapping.staysCircle, circle.byCentre),
                                                 interpretation_.truth(turnsOf().has_value()));
     const Truth mayDiffer =
@@ -200,7 +205,8 @@ private:
   /// From start to end, as radii are counted.
   std::pair<Value, Value> chordOf(const Plane &plane, const Point &start) {
     const auto along = [&](Axis axis) {
-      return asRadius(axis, interpretation_.subtract(state_.at(axis), start[indexOf(axis)]));
+      return asRadius(axis, distance_ ? (*distance_)[indexOf(axis)]
+                                      : interpretation_.subtract(state_.at(axis), start[indexOf(axis)]));
     };
     return {along(plane.first), along(plane.second)};
   }
@@ -216,6 +222,8 @@ private:
       return;
     state_.at(plane.first) = start[indexOf(plane.first)];
     state_.at(plane.second) = start[indexOf(plane.second)];
+    if (distance_)
+      (*distance_)[indexOf(plane.first)] = (*distance_)[indexOf(plane.second)] = context_.zero();
   }
   /// Where a mode that is not followed gives the words another meaning.
   void alarmsOfOtherGeometry(Truth arc) {
@@ -233,27 +241,28 @@ private:
       mayStop(byRadius, AlarmKind::ArcWithoutLength);
   }
   Truth present(char letter) const { return words_.present(interpretation_, letter); }
-  /// I, J, K are distances from the start point, mapped like those of the axes; absolute only where the control has
-  /// that mode.
-  std::pair<Value, Value> centreOf(const Plane &plane, const Point &start) {
+  /// I, J, K are distances from the start point, mapped like those of the axes.
+  std::array<Value, 2> centreFromStart(const Plane &plane) {
     Point distance;
     distance.fill(context_.zero());
-    distance[indexOf(plane.first)] = asCoordinate(plane.first, distanceWord(plane.firstCentre));
-    distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(plane.secondCentre));
+    distance[indexOf(plane.first)] = asCoordinate(plane.first, distanceWord(context_, words_, plane.firstCentre));
+    distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(context_, words_, plane.secondCentre));
     const Point mapped = toWorkDistance(context_, distance);
-    const auto centreOn = [&](Axis axis, char letter) {
-      const Value fromStart = interpretation_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
-      if (!context_.behaviour().arcDistanceModes)
-        return fromStart;
-      const Truth absolute =
-          context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, interpretation_.truth(false));
-      return interpretation_.select(absolute, distanceWord(letter), fromStart);
-    };
-    return {centreOn(plane.first, plane.firstCentre), centreOn(plane.second, plane.secondCentre)};
+    return {mapped[indexOf(plane.first)], mapped[indexOf(plane.second)]};
   }
-  Value distanceWord(char letter) {
-    const auto *entry = words_.find(letter);
-    return entry ? interpretation_.select(entry->present, entry->value, context_.zero()) : context_.zero();
+  /// They are coordinates only where the control has that mode.
+  Truth areCoordinates() const {
+    return context_.behaviour().arcDistanceModes
+               ? context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, interpretation_.truth(false))
+               : interpretation_.truth(false);
+  }
+  std::pair<Value, Value> centreOf(const Plane &plane, const Point &start, const std::array<Value, 2> &fromStart) {
+    const auto centreOn = [&](Axis axis, const Value &distance, char letter) {
+      const Value centre = interpretation_.add(start[indexOf(axis)], distance);
+      return interpretation_.select(areCoordinates(), distanceWord(context_, words_, letter), centre);
+    };
+    return {centreOn(plane.first, fromStart[0], plane.firstCentre),
+            centreOn(plane.second, fromStart[1], plane.secondCentre)};
   }
   /// On a lathe X is a diameter, I a radius.
   Value asCoordinate(Axis axis, const Value &length) {
@@ -266,12 +275,32 @@ private:
                ? interpretation_.divide(length, interpretation_.number(2))
                : length;
   }
-  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
-    const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
-      return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
-              asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
+  /// From the centre to the start and to the end.  Of distances alone where the words are, since sums with a position
+  /// of which nothing is known may be rounded by any amount.
+  std::pair<std::array<Value, 2>, std::array<Value, 2>> spokesOf(const Circle &circle, const Point &start) {
+    const Plane &plane = circle.plane;
+    const auto inPlane = [&](auto &&along) -> std::array<Value, 2> {
+      return {asRadius(plane.first, along(plane.first, 0)), asRadius(plane.second, along(plane.second, 1))};
     };
-    const RadiiApart<R> apart = radiiApart(interpretation_, spoke(start), spoke(state_.position));
+    if (distance_ && !interpretation_.mayBe(areCoordinates())) {
+      const auto toStart = [&](Axis, std::size_t i) {
+        return interpretation_.subtract(context_.zero(), circle.fromStart[i]);
+      };
+      const auto toEnd = [&](Axis axis, std::size_t i) {
+        return interpretation_.subtract((*distance_)[indexOf(axis)], circle.fromStart[i]);
+      };
+      return {inPlane(toStart), inPlane(toEnd)};
+    }
+    const auto from = [&](const Point &point) {
+      return inPlane([&](Axis axis, std::size_t i) {
+        return interpretation_.subtract(point[indexOf(axis)], i == 0 ? circle.first : circle.second);
+      });
+    };
+    return {from(start), from(state_.position)};
+  }
+  Truth radiiDiffer(const Circle &circle, const Point &start) {
+    const auto [toStart, toEnd] = spokesOf(circle, start);
+    const RadiiApart<R> apart = radiiApart(interpretation_, toStart, toEnd);
     const Truth differ = apart.exceed(interpretation_, tolerance());
     if (const double share = context_.behaviour().arcShare; share > 0) {
       const Value most = interpretation_.multiply(tolerance(), interpretation_.number(kMostTolerances));
@@ -383,6 +412,7 @@ private:
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
   bool hasOtherWay_;
+  std::optional<Point> distance_ = std::nullopt; // from the start to the end, where the words say it
 };
 
 } // namespace feedhold::detail

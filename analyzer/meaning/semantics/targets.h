@@ -30,6 +30,12 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
 /// from a place where the control does not take the tool to be; an absolute and an incremental word of one axis.
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words);
 
+/// From where the tool is to that end, as the words of a block under G91 say it: without the rounding of a sum. Absent:
+/// they are not, or not surely, distances.
+template <ValueAlgebra R>
+std::optional<std::array<typename R::Value, kAxisCount>> distanceOf(StepContext<R> &context,
+                                                                    const ExecutedWords<R> &words);
+
 /// Behind a movement: an axis that an absolute word has named is where the control takes it to be.
 template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words);
 
@@ -38,6 +44,10 @@ template <ValueAlgebra R>
 void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
 /// In a mode that is not followed no movement is told as one whose way is known.
 template <ValueAlgebra R> void tell(StepContext<R> &context, Move<typename R::Value> move);
+
+/// The word of a letter as a distance: 0 without it.
+template <ValueAlgebra R>
+typename R::Value distanceWord(StepContext<R> &context, const ExecutedWords<R> &words, char letter);
 
 /// What a word adds to, or puts in place of, a coordinate.
 template <ValueAlgebra R>
@@ -95,6 +105,14 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
 }
 
 } // namespace detail
+
+template <ValueAlgebra R>
+typename R::Value distanceWord(StepContext<R> &context, const ExecutedWords<R> &words, char letter) {
+  const auto *entry = words.find(letter);
+  if (!entry || context.certain(entry->present))
+    return entry ? entry->value : context.zero();
+  return context.interpretation.select(entry->present, entry->value, context.zero());
+}
 
 template <ValueAlgebra R>
 typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords<R>::Entry &entry,
@@ -211,23 +229,31 @@ void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
   }
 }
 
+/// The axis words as distances, of which the mappings turn and stretch what they say.
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> mappedDistance(StepContext<R> &context, const ExecutedWords<R> &words) {
+  std::array<typename R::Value, kAxisCount> distance;
+  for (const Axis axis : kAllAxes)
+    distance[indexOf(axis)] = distanceWord(context, words, letterOf(axis));
+  return toWorkDistance(context, std::move(distance));
+}
+
 /// Under G91 the distances alone are mapped.
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> mappedIncrement(StepContext<R> &context, const ExecutedWords<R> &words) {
-  R &interpretation = context.interpretation;
-  std::array<typename R::Value, kAxisCount> distance;
+  auto target = mappedDistance(context, words);
   for (const Axis axis : kAllAxes) {
-    const auto *entry = words.find(letterOf(axis));
-    distance[indexOf(axis)] =
-        entry ? interpretation.select(entry->present, entry->value, context.zero()) : context.zero();
-  }
-  distance = toWorkDistance(context, std::move(distance));
-  for (const Axis axis : kAllAxes) {
-    distance[indexOf(axis)] = interpretation.add(context.state.at(axis), distance[indexOf(axis)]);
+    target[indexOf(axis)] = context.interpretation.add(context.state.at(axis), target[indexOf(axis)]);
     if (words.find(letterOf(axis)))
-      distance[indexOf(axis)] = openedUp(context, axis, distance[indexOf(axis)]);
+      target[indexOf(axis)] = openedUp(context, axis, target[indexOf(axis)]);
   }
-  return distance;
+  return target;
+}
+
+/// All axis words are distances, and not of polar coordinates.
+template <ValueAlgebra R> bool areDistances(StepContext<R> &context) {
+  return context.modes.groupOf(ModalKind::Distance) && !context.interpretation.mayBe(isAbsolute(context)) &&
+         !context.interpretation.mayBe(isPolar(context));
 }
 
 } // namespace detail
@@ -236,8 +262,7 @@ template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
   R &interpretation = context.interpretation;
   const bool isMapped = interpretation.mayBe(context.state.transformed);
-  if (isMapped && context.modes.groupOf(ModalKind::Distance) && !interpretation.mayBe(detail::isAbsolute(context)) &&
-      !interpretation.mayBe(detail::isPolar(context)))
+  if (isMapped && detail::areDistances(context))
     return detail::mappedIncrement(context, words);
   auto target = context.state.position;
   if (isMapped)
@@ -271,6 +296,14 @@ template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const Execu
            return context.interpretation.mayBe(open) && context.interpretation.mayBe(context.interpretation.both(
                                                             open, detail::isWritten(context, words, axis)));
          });
+}
+
+template <ValueAlgebra R>
+std::optional<std::array<typename R::Value, kAxisCount>> distanceOf(StepContext<R> &context,
+                                                                    const ExecutedWords<R> &words) {
+  if (!detail::areDistances(context) || isOpenTarget(context, words))
+    return std::nullopt;
+  return detail::mappedDistance(context, words);
 }
 
 template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words) {

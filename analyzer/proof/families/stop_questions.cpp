@@ -1,4 +1,5 @@
 // Stops: no run reaches `#3000=` or an alarm of the control, unless the contract declares the alarm.
+#include "meaning/cfg/reached_programs.h"
 #include "proof/families/families.h"
 
 #include <algorithm>
@@ -78,6 +79,28 @@ TermId isOneOf(SymbolicInterpretation &interpretation, const SymbolicValue &valu
   return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
 }
 
+/// The text has G41 or G42, or a computed G code, which may be one.
+bool namesSide(const ProgramFile &file) {
+  return std::ranges::any_of(file.tree->words, [&](const Word &word) {
+    if (word.address() != 'G')
+      return false;
+    const auto tenths = word.tenths();
+    const Code *code = tenths ? findGCode(*file.dialect, *tenths) : nullptr;
+    return !tenths ||
+           (code && (code->action == CodeAction::CompensationLeft || code->action == CodeAction::CompensationRight));
+  });
+}
+
+/// No cutter compensation begins in the program or in one that it comes to: M72 and a return can restore none but that
+/// which was in force at the start, and for that the caller answers, where it begins.
+bool beginsNoCompensation(const ProofSubject &subject) {
+  ReachedPrograms reached;
+  collectReached(subject.programs, {subject.program.file, subject.program.program}, reached);
+  return !reached.orAny && std::ranges::none_of(reached.programs, [&](const ProgramRef &program) {
+    return namesSide(subject.programs.file(program.file));
+  });
+}
+
 /// The node that assigns: the same as where a path meets it, so that it is the same claim.
 NodeId writeOf(const ProgramFile &file, const VariableUse &use) {
   NodeId node = file.cfg.nodeOf(use.block);
@@ -98,10 +121,15 @@ Questions stopQuestions(const ExploredProgram &program) {
   const auto &[subject, start, found] = program;
   smt::TermStore &store = start.store();
   const std::vector<std::uint32_t> foreseen = foreseenAlarms(subject.contract());
+  std::optional<bool> isOfCaller;
   Questions questions;
   for (const StopSite &stop : found.stopSites) {
     const ObligationKind kind = kindOf(stop);
     if (!subject.isOwn(stop.place) || !subject.wants(kind))
+      continue;
+    if (kind == ObligationKind::Compensation && !isOfCaller)
+      isOfCaller = beginsNoCompensation(subject);
+    if (kind == ObligationKind::Compensation && *isOfCaller)
       continue;
     Question question{.row = subject.obligation(kind, stop.place, stop.span, stopClaim(stop, foreseen)),
                       .goals = {},

@@ -168,21 +168,28 @@ SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exa
 }
 
 /// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value
-/// together.  Coordinates are small; where that is not proved, the distance goes by the value.
+/// together.  Coordinates are small; where that is not proved, the distance goes by the value.  What is rounded to the
+/// nearest keeps its size with the other sign: of a number and its negation one word is made, of which that is the
+/// negation.
 SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
   if (const auto constant = constantOf(value)) {
     const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
     return number(std::round(*constant * steps) / steps);
   }
-  const Number half = numberOf(step) / Number(2);
-  if (isRoundedHere()) {
-    return near(value.number,
-                store_.add(store_.number(half * Number(1'000'001) / Number(1'000'000)),
-                           store_.scale(Number(1) / Number(std::int64_t{1} << 52), sizeOf(value.number))));
-  }
+  const TermId opposite = store_.negate(value.number);
+  const bool isOpposite = opposite < value.number;
+  const TermId exact = isOpposite ? opposite : value.number;
+  const TermId word = near(exact, distanceOfWord(exact, numberOf(step) / Number(2))).number;
+  return of(isOpposite ? store_.negate(word) : word);
+}
+
+TermId SymbolicInterpretation::distanceOfWord(TermId exact, const Number &half) {
+  if (isRoundedHere())
+    return store_.add(store_.number(half * Number(1'000'001) / Number(1'000'000)),
+                      store_.scale(Number(1) / Number(std::int64_t{1} << 52), sizeOf(exact)));
   constexpr int kBitsOfWord = 30;
-  exact_.push_back({value.number, kBitsOfWord});
-  return near(value.number, store_.number(half + Number(1) / Number(4'000'000))); // 2^(30 - 52) and a little more
+  exact_.push_back({exact, kBitsOfWord});
+  return store_.number(half + Number(1) / Number(4'000'000)); // 2^(30 - 52) and a little more
 }
 
 } // namespace feedhold::prove

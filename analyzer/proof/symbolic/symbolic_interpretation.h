@@ -291,6 +291,7 @@ private:
   Value near(smt::TermId exact, smt::TermId distance);
   Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
   Value roundedWord(const Value &value, Decimal step);
+  smt::TermId distanceOfWord(smt::TermId exact, const smt::Number &half);
   Truth equal(const Value &a, const Value &b);
   bool isRoundedHere() const { return place_ && rounded_.contains(*place_); }
   bool isMultipleByPowerOfTwo(const Value &factor) const;

@@ -1,5 +1,6 @@
 #include "surface/cli/baseline_file.h"
 
+#include "base/source/path_text.h"
 #include "base/source/write_file.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
@@ -157,9 +158,7 @@ void addBaselineOptions(CLI::App &app, BaselineOptions &options) {
       ->needs(file);
 }
 
-fs::path folderOf(const BaselineOptions &options) {
-  return fs::absolute(options.file).lexically_normal().parent_path();
-}
+fs::path folderOf(const BaselineOptions &options) { return normalPath(fs::absolute(options.file)).parent_path(); }
 
 std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineOptions &options) {
   if (complaint) {

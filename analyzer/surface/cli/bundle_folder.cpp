@@ -1,5 +1,6 @@
 #include "surface/cli/bundle_folder.h"
 
+#include "base/source/path_text.h"
 #include "base/source/source_file.h"
 #include "base/source/write_file.h"
 #include "base/support/system_words.h"
@@ -15,7 +16,7 @@ namespace {
 
 /// Beside the folder, so that a move of it is one step.
 fs::path beside(const fs::path &folder, std::string_view what) {
-  fs::path path = fs::absolute(folder).lexically_normal();
+  fs::path path = normalPath(fs::absolute(folder));
   if (!path.has_filename())
     path = path.parent_path();
   return path.string() + fmt::format(".{}-{}", what, processId());
@@ -83,7 +84,7 @@ Result<Bundle> readBundle(const fs::path &folder) {
       const Result<SourceFile> file = SourceFile::open(entry.path());
       if (!file)
         return file.error();
-      bundle.emplace(entry.path().lexically_relative(folder).generic_string(), file.value().text());
+      bundle.emplace(pathText(entry.path().lexically_relative(folder)), file.value().text());
     }
   } catch (const fs::filesystem_error &error) {
     return Error{inWords(error.code())};

@@ -1,4 +1,5 @@
 // `feedhold certify [PATHS] -o FOLDER`: a report of proofs for people who release programs.
+#include "base/source/path_text.h"
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
@@ -121,7 +122,7 @@ Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
 
 /// One spelling for each file: `nc/` and `.` within it are `nc`.
 std::filesystem::path plainPath(const std::string &path) {
-  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  const std::filesystem::path absolute = normalPath(std::filesystem::absolute(path));
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
@@ -169,7 +170,7 @@ Result<int> certify(const CertifyArguments &arguments, const CLI::App &command) 
     return Error{arguments.output + ": " + error->message};
   if (!arguments.quiet)
     print(fmt::format("{} in {} program{}: {}\n", textOf(run.counts), run.programs, run.programs == 1 ? "" : "s",
-                      (std::filesystem::path(arguments.output) / kReportPage).generic_string()));
+                      pathText((std::filesystem::path(arguments.output) / kReportPage))));
   return exitCodeOf(run.status);
 }
 

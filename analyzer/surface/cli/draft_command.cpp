@@ -2,6 +2,7 @@
 #include "findings/draft/draft.h"
 
 #include "base/diag/edits.h"
+#include "base/source/path_text.h"
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/cli/commands.h"
@@ -64,7 +65,7 @@ std::string textsOf(const std::vector<DraftedProgram> &programs, bool asDiff) {
   for (const DraftedProgram &each : programs) {
     if (!each.isChanged())
       continue;
-    const std::string place = each.place.generic_string();
+    const std::string place = pathText(each.place);
     text += asDiff ? unifiedDiff(place, each.before, each.after) : fmt::format("; {}\n{}\n", place, each.after);
   }
   return text;

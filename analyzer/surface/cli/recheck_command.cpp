@@ -1,5 +1,6 @@
 // `feedhold recheck DIR`: whether a bundle of proofs, or the report of `certify`, still says what proving the same now
 // says, and whether its evidence holds.
+#include "base/source/path_text.h"
 #include "dialects/registry.h"
 #include "proof/smt/solver.h"
 #include "rules/registry.h"
@@ -32,7 +33,7 @@ struct RecheckArguments {
 ProofOptions optionsFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
   ProofOptions options;
   for (const std::filesystem::path &path : origin.paths)
-    options.files.paths.push_back(path.generic_string());
+    options.files.paths.push_back(pathText(path));
   options.files.control = origin.reading.control;
   if (origin.reading.isolated)
     options.files.config.source = ConfigSource::None;

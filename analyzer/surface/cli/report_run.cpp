@@ -1,5 +1,6 @@
 #include "surface/cli/report_run.h"
 
+#include "base/source/path_text.h"
 #include "dialects/registry.h"
 #include "findings/session/session.h"
 #include "proof/smt/solver.h"
@@ -67,12 +68,12 @@ std::vector<std::string> solvers() {
 CheckOptions filesOfReport(const ReportOptions &options, unsigned jobs) {
   CheckOptions files;
   for (const fs::path &path : options.paths)
-    files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
+    files.paths.push_back(pathText(normalPath(fs::absolute(path))));
   files.control = options.reading.control;
   if (options.reading.isolated)
     files.config.source = ConfigSource::None;
   else if (options.reading.config)
-    files.config = {ConfigSource::Named, fs::absolute(*options.reading.config).lexically_normal()};
+    files.config = {ConfigSource::Named, normalPath(fs::absolute(*options.reading.config))};
   files.jobs = jobs;
   return files;
 }

@@ -1,5 +1,6 @@
 #include "surface/cli/shard_options.h"
 
+#include "base/source/path_text.h"
 #include "base/source/source_file.h"
 #include "base/source/write_file.h"
 #include "proof/smt/solver.h"
@@ -120,10 +121,10 @@ Result<std::vector<RunPart>> readParts(const std::vector<std::string> &paths) {
     for (const fs::path &file : files) {
       const Result<SourceFile> source = SourceFile::open(file);
       if (!source)
-        return Error{fmt::format("{}: {}", file.generic_string(), source.error().message)};
+        return Error{fmt::format("{}: {}", pathText(file), source.error().message)};
       Result<RunPart> part = readPart(source.value().text());
       if (!part)
-        return Error{fmt::format("{}: {}", file.generic_string(), part.error().message)};
+        return Error{fmt::format("{}: {}", pathText(file), part.error().message)};
       parts.push_back(part.take());
     }
   }

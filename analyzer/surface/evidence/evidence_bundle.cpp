@@ -1,5 +1,6 @@
 #include "surface/evidence/evidence_bundle.h"
 
+#include "base/source/path_text.h"
 #include "base/support/match.h"
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
@@ -157,10 +158,9 @@ private:
 std::string pathFrom(const fs::path &folder, const fs::path &path) {
   if (path.empty())
     return "";
-  const fs::path absolute = fs::absolute(path).lexically_normal();
-  const std::string relative =
-      absolute.lexically_relative(fs::absolute(folder / "").lexically_normal()).generic_string();
-  return relative.empty() ? absolute.generic_string() : relative;
+  const fs::path absolute = normalPath(fs::absolute(path));
+  const std::string relative = pathText(absolute.lexically_relative(normalPath(fs::absolute(folder / ""))));
+  return relative.empty() ? pathText(absolute) : relative;
 }
 
 Bundle makeBundle(const ProofsResult &result, const BundleReading &reading, std::string_view version,
@@ -178,7 +178,7 @@ Result<BundleOrigin> originOf(const Bundle &bundle, const fs::path &folder) {
     if (index.at("version") != 2)
       return Error{"the bundle has another format version"};
     for (const Json &file : index.at("files"))
-      origin.paths.push_back((folder / std::string(file.at("path"))).lexically_normal());
+      origin.paths.push_back(normalPath(folder / std::string(file.at("path"))));
     origin.reading = readingFrom(index.at("options"), folder);
     return origin;
   } catch (const Json::exception &) {

@@ -1,5 +1,6 @@
 #include "surface/evidence/reading_json.h"
 
+#include "base/source/path_text.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 
@@ -33,7 +34,7 @@ BundleReading readingFrom(const Json &reading, const std::filesystem::path &fold
     read.control.gCodeSystem = gCodeSystemNamed(codes->get<std::string>());
   read.isolated = reading.at("isolated");
   if (!reading.at("config").is_null())
-    read.config = (folder / reading.at("config").get<std::string>()).lexically_normal();
+    read.config = normalPath(folder / reading.at("config").get<std::string>());
   for (const prove::ObligationKind kind : prove::kObligationKinds)
     for (const Json &name : reading.at("only"))
       if (name == prove::nameOf(kind))
@@ -52,7 +53,7 @@ std::string readingOptions(const BundleReading &reading) {
   if (reading.isolated)
     text += " --isolated";
   else if (reading.config)
-    text += " --config " + quotedWord(reading.config->generic_string());
+    text += " --config " + quotedWord(pathText(*reading.config));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "surface/lsp/allowances.h"
 
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 #include "findings/project/sidecars.h"
 
@@ -53,7 +54,7 @@ std::optional<Home> homeOf(ProgramId program, const ProjectFile &file) {
       names.push_back(file.path.parent_path() / fmt::format(fmt::runtime(form), *number));
   if (program == ProgramId(0))
     for (const fs::path &name : {file.path.stem(), file.path.filename()})
-      names.push_back(file.path.parent_path() / (name.generic_string() + ".contract"));
+      names.push_back(file.path.parent_path() / (pathText(name) + ".contract"));
   for (const fs::path &name : names)
     if (const SourceFile *source = sourceOf(name, file))
       return Home{name, source};
@@ -94,7 +95,7 @@ std::optional<SidecarClause> clauseAllowing(const PublishedDiagnostic &published
     return std::nullopt;
   SidecarClause clause{.file = home->file,
                        .isNew = home->source == nullptr,
-                       .before = home->source ? *home->source : SourceFile::fromText(home->file.generic_string(), ""),
+                       .before = home->source ? *home->source : SourceFile::fromText(pathText(home->file), ""),
                        .edit = {},
                        .place = {}};
   const std::optional<std::uint32_t> number = numberOf(*block, file);

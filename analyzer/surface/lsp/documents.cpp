@@ -1,6 +1,7 @@
 #include "surface/lsp/documents.h"
 
 #include "base/source/file_uri.h"
+#include "base/source/path_text.h"
 
 #include <algorithm>
 
@@ -18,7 +19,7 @@ Document openDocument(const Json &textDocument) {
   document.version = textDocument.at("version").get<std::int64_t>();
   document.text = std::make_shared<const std::string>(textDocument.at("text").get<std::string>());
   const std::filesystem::path path = pathOfUri(document.uri);
-  document.path = path.is_absolute() ? path.lexically_normal() : std::filesystem::path();
+  document.path = path.is_absolute() ? normalPath(path) : std::filesystem::path();
   if (!document.path.empty())
     document.place = placeOf(document.path);
   return document;

@@ -1,5 +1,6 @@
 #include "surface/lsp/facts_at_cursor.h"
 
+#include "base/source/path_text.h"
 #include "meaning/semantics/modal_table.h"
 #include "surface/lsp/feature_meaning.h"
 
@@ -20,7 +21,7 @@ std::string callerOf(const Project &programs, const ContextStates &context) {
   const ProjectFile &file = programs.file(from.file);
   const std::uint32_t line = lineOf(file, programs.set->node(from).block);
   return from.file == kDocument ? fmt::format("called in line {}", line)
-                                : fmt::format("called in {}:{}", file.path.filename().generic_string(), line);
+                                : fmt::format("called in {}:{}", pathText(file.path.filename()), line);
 }
 
 /// Of the programs that are started where these chains of calls begin.

@@ -1,5 +1,7 @@
 #include "surface/lsp/feature_json.h"
 
+#include "base/source/path_text.h"
+
 #include <algorithm>
 
 namespace feedhold::lsp {
@@ -13,7 +15,7 @@ View withFolder(const View &view) {
   View whole = view;
   if (view.file().path.empty() || !view.file().model.calls.empty()) // then it is loaded with them
     return whole;
-  const ProgramOptions options{.path = view.file().path.generic_string(),
+  const ProgramOptions options{.path = pathText(view.file().path),
                                .control = {.dialect = std::string(view.programs->dialect().id)},
                                .open = view.open,
                                .folder = ProgramOptions::Folder::Always,

@@ -1,4 +1,5 @@
 // Who calls a program, and whom it calls.
+#include "base/source/path_text.h"
 #include "base/support/match.h"
 #include "surface/lsp/feature_handlers.h"
 #include "surface/lsp/feature_json.h"
@@ -15,7 +16,7 @@ constexpr int kFunctionSymbol = 12; // SymbolKind
 Json itemOf(const View &view, ProgramRef program) {
   const ProjectFile &file = view.programs->file(program.file);
   const std::string title = titleOf(file, program.program);
-  const std::string folder = file.path.filename().generic_string();
+  const std::string folder = pathText(file.path.filename());
   return {{"name", nameOf(*view.programs, program)},
           {"kind", kFunctionSymbol},
           {"detail", title.empty() ? folder : title + ", " + folder},

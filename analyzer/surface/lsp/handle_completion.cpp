@@ -1,4 +1,5 @@
 // What may be written next.
+#include "base/source/path_text.h"
 #include "base/support/text.h"
 #include "surface/lsp/feature_arguments.h"
 #include "surface/lsp/feature_handlers.h"
@@ -117,7 +118,7 @@ private:
         if (!name.number || (FileId(i) == kDocument && ProgramId(p) == program_))
           continue;
         const std::string title = titleOf(file, ProgramId(p));
-        const std::string in = file.path.filename().generic_string();
+        const std::string in = pathText(file.path.filename());
         add(std::to_string(*name.number), kFunction, title.empty() ? in : fmt::format("{} ({})", title, in));
       }
     }

@@ -1,4 +1,5 @@
 // What the symbol at a place is, and what is known of it there.
+#include "base/source/path_text.h"
 #include "base/support/match.h"
 #include "base/support/text.h"
 #include "language/model/block_facts.h"
@@ -60,7 +61,7 @@ private:
     const std::string title = titleOf(in, ref.program);
     line("**{}**{}", nameOf(programs_, ref), title.empty() ? "" : " " + plain(title));
     if (ref.file != kDocument)
-      line("in `{}`", in.path.filename().generic_string());
+      line("in `{}`", pathText(in.path.filename()));
     const View whole = withFolder(view_); // `ref` is in the document, or the folder is there already
     if (const auto callers = whole.programs->set->callGraph().callers(ref); !callers.empty())
       line("called from {} {} in the project", callers.size(), callers.size() == 1 ? "place" : "places");
@@ -116,8 +117,7 @@ private:
   static std::string placeOf(const Project &programs, const Use &use) {
     const ProjectFile &in = programs.file(use.file);
     const std::uint32_t at = in.source.lineOf(use.span.begin);
-    return use.file == kDocument ? fmt::format("line {}", at)
-                                 : fmt::format("{}:{}", in.path.filename().generic_string(), at);
+    return use.file == kDocument ? fmt::format("line {}", at) : fmt::format("{}:{}", pathText(in.path.filename()), at);
   }
   void jump(const Jump &jump) {
     const auto number = targetNumber(jump);

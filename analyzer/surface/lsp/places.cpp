@@ -1,6 +1,7 @@
 #include "surface/lsp/places.h"
 
 #include "base/source/file_uri.h"
+#include "base/source/path_text.h"
 #include "findings/project/open_texts.h"
 
 #include <algorithm>
@@ -17,9 +18,7 @@ std::size_t lengthAt(std::string_view text, std::size_t at) {
 
 constexpr std::size_t kBeyondUtf16Unit = 4; // characters of four bytes are two units
 
-std::filesystem::path normal(const std::filesystem::path &path) {
-  return std::filesystem::absolute(path).lexically_normal();
-}
+std::filesystem::path normal(const std::filesystem::path &path) { return normalPath(std::filesystem::absolute(path)); }
 
 } // namespace
 
@@ -106,8 +105,7 @@ std::string OpenUris::of(const std::filesystem::path &path) const {
   if (const auto open = documents_.find(placeOf(path)); open != documents_.end())
     return open->second;
   const auto folder = folders_.find(written.parent_path());
-  return folder == folders_.end() ? uriOfPath(path)
-                                  : folder->second + escapedForUri(written.filename().generic_string());
+  return folder == folders_.end() ? uriOfPath(path) : folder->second + escapedForUri(pathText(written.filename()));
 }
 
 } // namespace feedhold::lsp

@@ -2,6 +2,7 @@
 // what is known already.
 #include "surface/lsp/session.h"
 
+#include "base/source/path_text.h"
 #include "surface/lsp/formatter.h"
 #include "surface/sink/prove_shown.h"
 
@@ -114,7 +115,7 @@ void ClientSession::addActions(const PublishedDiagnostic &published, OpenDocumen
   const std::optional<SidecarClause> clause = clauseAllowing(published, file);
   if (clause && (!clause->isNew || createsFiles_))
     actions.push_back({{"title", fmt::format("allow `{}` for {} in {}, with a reason", published.code, clause->place,
-                                             clause->file.filename().generic_string())},
+                                             pathText(clause->file.filename()))},
                        {"kind", kQuickFix},
                        {"diagnostics", diagnostics},
                        {"edit", sidecarEdit(*clause)}});

@@ -1,5 +1,6 @@
 // Drafted contracts: the action that offers one, and the edit that creates its file.  A draft takes seconds, so that
 // the action is a command, and the edit comes when the draft is ready.
+#include "base/source/path_text.h"
 #include "surface/lsp/session.h"
 
 #include <fmt/format.h>
@@ -78,7 +79,7 @@ void ClientSession::takeDraft(const std::string &subject, const DraftResult &res
     if (!drafted.isChanged())
       continue;
     isNew = true;
-    const std::string place = drafted.place.generic_string();
+    const std::string place = pathText(drafted.place);
     const SidecarClause file{.file = drafted.place,
                              .isNew = true,
                              .before = SourceFile::fromText(place, ""),

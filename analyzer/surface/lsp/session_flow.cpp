@@ -1,5 +1,6 @@
 // Findings that follow the flow: of a document alone, then as `check` of the folder of the workspace has them, where
 // programs in other files call it, are called by it, or share a file with contracts.
+#include "base/source/path_text.h"
 #include "surface/lsp/session.h"
 
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ void ClientSession::startFlow(const std::vector<OpenDocument *> &due) {
                         .name = Workspace::nameIn(*document, scope.alone),
                         .isForOthers = std::exchange(document->isFlowDueForOthers, false)};
     const auto [job, isNew] =
-        jobs.try_emplace(scope.whole ? workspace_.rootOf(*document).generic_string() : uri, FlowJob{{}, scope});
+        jobs.try_emplace(scope.whole ? pathText(workspace_.rootOf(*document)) : uri, FlowJob{{}, scope});
     if (!isNew) {
       CheckOptions &whole = *job->second.scope.whole;
       whole.paths.insert(whole.paths.begin(), scope.whole->paths.begin(), scope.whole->paths.end());

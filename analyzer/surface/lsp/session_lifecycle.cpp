@@ -2,6 +2,7 @@
 #include "surface/lsp/session.h"
 
 #include "base/source/file_uri.h"
+#include "base/source/path_text.h"
 
 #include <algorithm>
 
@@ -19,7 +20,7 @@ bool isTrue(const Json &json, std::string_view pointer) { return at(json, pointe
 
 std::filesystem::path folderOf(const Json &uri) {
   const std::filesystem::path path = uri.is_string() ? pathOfUri(uri.get<std::string>()) : std::filesystem::path();
-  return path.is_absolute() ? path.lexically_normal() : std::filesystem::path();
+  return path.is_absolute() ? normalPath(path) : std::filesystem::path();
 }
 
 } // namespace

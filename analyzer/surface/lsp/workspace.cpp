@@ -1,5 +1,6 @@
 #include "surface/lsp/workspace.h"
 
+#include "base/source/path_text.h"
 #include "base/support/check.h"
 #include "findings/project/discovery.h"
 
@@ -105,13 +106,13 @@ CheckOptions Workspace::optionsFor(const OpenDocument &document) const {
     return options;
   }
   if (!path.empty() && fs::is_regular_file(path, ignored)) {
-    options.paths = {path.generic_string()};
+    options.paths = {pathText(path)};
     return options;
   }
   // Not on disk: a name in the first folder, so that its configuration holds.
   const fs::path name = !path.empty() ? path : fs::path(document.document.uri).filename();
   const fs::path folder = folders.empty() || !path.empty() ? fs::path() : folders.front();
-  options.piped = PipedText{(folder / name).generic_string(), *document.document.text};
+  options.piped = PipedText{pathText((folder / name)), *document.document.text};
   return options;
 }
 
@@ -126,7 +127,7 @@ FlowScope Workspace::scopeOf(const OpenDocument &document) {
   scope.isLarge = files > kQuickFolder;
   scope.whole = scope.alone;
   scope.whole->only.emplace(scope.alone.paths.begin(), scope.alone.paths.end());
-  scope.whole->paths.push_back(root.generic_string());
+  scope.whole->paths.push_back(pathText(root));
   return scope;
 }
 
@@ -143,7 +144,7 @@ fs::path Workspace::rootOf(const OpenDocument &document) const {
 
 std::string Workspace::nameIn(const OpenDocument &document, const CheckOptions &options) {
   if (document.isContract())
-    return document.document.path.generic_string();
+    return pathText(document.document.path);
   return options.piped ? options.piped->name : options.paths.front();
 }
 
@@ -172,11 +173,11 @@ std::vector<std::string> Workspace::programsBeside(const fs::path &contract) {
     const fs::path path = at->path();
     std::error_code ignored;
     if (path.extension() == kContractExtension || !at->is_regular_file(ignored) ||
-        !kindOfFileName(path.filename().generic_string()))
+        !kindOfFileName(pathText(path.filename())))
       continue;
-    all.push_back(path.generic_string());
+    all.push_back(pathText(path));
     if (path.filename() == contract.stem() || path.stem() == contract.stem())
-      named.push_back(path.generic_string());
+      named.push_back(pathText(path));
   }
   return named.empty() ? all : named;
 }

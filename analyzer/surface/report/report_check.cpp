@@ -1,4 +1,5 @@
 // Checks a stored release report: whether it is consistent, and whether the same programs give the same report now.
+#include "base/source/path_text.h"
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "surface/evidence/reading_json.h"
@@ -83,9 +84,7 @@ Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) 
   try {
     if (document.value().at("version") != 2)
       return Error{"the report has another format version"};
-    const auto pathOf = [&](const Json &path) {
-      return (fs::absolute(folder) / path.get<std::string>()).lexically_normal();
-    };
+    const auto pathOf = [&](const Json &path) { return normalPath(fs::absolute(folder) / path.get<std::string>()); };
     ReportOrigin origin{.version = document.value().at("feedhold"), .options = {}};
     const Json &reading = document.value().at("options");
     for (const Json &path : reading.at("paths"))

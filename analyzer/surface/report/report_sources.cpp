@@ -1,4 +1,5 @@
 // The files that a report was made of, as they are now: where they were, or below another folder.
+#include "base/source/path_text.h"
 #include "base/support/sha256.h"
 #include "surface/report/report_parts.h"
 
@@ -22,7 +23,7 @@ struct FoundSource {
 std::vector<FoundSource> whereTheyWere(const std::vector<std::string> &paths, const fs::path &folder) {
   std::vector<FoundSource> found;
   for (const std::string &path : paths)
-    found.push_back({(fs::absolute(folder) / path).lexically_normal()});
+    found.push_back({normalPath(fs::absolute(folder) / path)});
   return found;
 }
 
@@ -31,8 +32,8 @@ using Names = std::vector<std::string>;
 /// The names of folders and of the file; `..` is none.
 Names namesIn(const fs::path &path) {
   Names names;
-  for (const fs::path &part : path.lexically_normal())
-    if (const std::string name = part.generic_string(); name != ".." && name != "." && name != "/")
+  for (const fs::path &part : normalPath(path))
+    if (const std::string name = pathText(part); name != ".." && name != "." && name != "/")
       names.push_back(name);
   return names;
 }
@@ -64,7 +65,7 @@ public:
     for (fs::recursive_directory_iterator at(place, fs::directory_options::skip_permission_denied, error), end;
          !error && at != end; at.increment(error))
       if (wanted.contains(at->path().filename().string()) && at->is_regular_file(error))
-        files_.push_back(at->path().lexically_relative(place).generic_string());
+        files_.push_back(pathText(at->path().lexically_relative(place)));
     std::sort(files_.begin(), files_.end());
   }
 
@@ -103,7 +104,7 @@ private:
     if (match.files.size() > 1)
       return {{},
               fmt::format("it may be any of {} below `{}`: name a folder that holds only one of them",
-                          listed(match.files), place_.generic_string())};
+                          listed(match.files), pathText(place_))};
     std::vector<std::string> rivals;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (i == index || matches[i].files != match.files)
@@ -117,7 +118,7 @@ private:
       return {{},
               fmt::format("`{}` below `{}` may be this one or {}: name a folder that keeps the original "
                           "folder names",
-                          match.files.front(), place_.generic_string(), listed(rivals))};
+                          match.files.front(), pathText(place_), listed(rivals))};
     return {place_ / match.files.front()};
   }
 

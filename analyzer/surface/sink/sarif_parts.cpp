@@ -1,6 +1,7 @@
 #include "surface/sink/sarif_parts.h"
 
 #include "base/source/file_uri.h"
+#include "base/source/path_text.h"
 #include "surface/sink/json_parts.h"
 
 namespace feedhold::sarif {
@@ -35,7 +36,7 @@ Json toJson(const Invocation &invocation, const fs::path &root) {
 
 Json artifactLocation(const std::string &path, const fs::path &root) {
   const fs::path absolute = fs::path(path).is_absolute() ? fs::path(path) : root / path;
-  const std::string relative = absolute.lexically_normal().lexically_relative(root).generic_string();
+  const std::string relative = pathText(normalPath(absolute).lexically_relative(root));
   if (relative.empty() || relative.starts_with(".."))
     return {{"uri", uriOfPath(absolute)}};
   return {{"uri", escapedForUri(relative)}, {"uriBaseId", kRoot}};
