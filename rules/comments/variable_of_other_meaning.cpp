@@ -26,6 +26,12 @@ std::optional<std::string_view> otherMeaning(const VariableUse &use, const FileC
   const std::string remark = remarksOf(context, use.block);
   const bool isMeasured =
       saysAny(remark, {"SPINDLE LOAD", "SERVO LOAD", "AXIS LOAD", "LOAD METER", "TEMPERATURE", "VIBRATION", "TORQUE"});
+  // A row of the dialect for this number alone says what it is.
+  const VariableRange *range = findVariable(context.dialect, *use.number);
+  if (!use.write && isMeasured && range && range->first == range->last && role == VariableRole::Volatile &&
+      !range->meaning.empty() &&
+      !saysAny(toUpper(range->meaning), {"LOAD", "TEMPERATURE", "VIBRATION", "TORQUE", "INPUT"}))
+    return range->meaning;
   if (!use.write && isMeasured && isModal(role))
     return "a code or a word that is in force, such as the number of the tool";
   if (!use.write && isMeasured && isPosition(role))
