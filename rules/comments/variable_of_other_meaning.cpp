@@ -52,7 +52,9 @@ struct Place {
 /// One finding for all variables that hold the same.
 void tell(std::string_view meaning, const std::vector<Place> &places, const Reporter &reporter) {
   const Place &first = places.front();
-  Diagnostic diagnostic{.message = fmt::format("`#{}` is not what the remark says: it holds {}", first.number, meaning),
+  const bool hasArticle = meaning.starts_with("a ") || meaning.starts_with("the ");
+  Diagnostic diagnostic{.message = fmt::format("`#{}` is not what the remark says: it holds {}{}", first.number,
+                                               hasArticle ? "" : "the ", meaning),
                         .span = first.span,
                         .labels = {{first.remark, "the remark"}},
                         .notes = {"find the variable in the manual of the machine builder, or correct the remark"}};

@@ -64,6 +64,12 @@ std::optional<Start> startOf(const FlowFacts &facts, const FileContext &context,
   return zero && takesWhenTrue ? std::optional(Start{*zero, *takesWhenTrue}) : std::nullopt;
 }
 
+/// Z of what is touched from above is mostly below the zero point; X and Y may well be positive all along.
+bool isMostlyNegative(const FileContext &context, std::uint32_t position) {
+  const VariableRange *range = findVariable(context.dialect, position);
+  return range && position - range->first == static_cast<std::uint32_t>(indexOf(Axis::Z));
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (isTooLarge(facts))
     return;
@@ -79,12 +85,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const bool isLargest = search->positionIsGreater == start->takesWhenTrue;
     const std::string_view which = isLargest ? "largest" : "smallest";
     const std::string_view sign = isLargest ? "negative" : "positive";
-    reporter.report(
-        {.message = fmt::format("the search for the {} `#{}` begins at 0", which, search->position),
-         .span = context.tree.expressions[*test->condition].span,
-         .labels = {{start->zero, "begins here"}},
-         .notes = {fmt::format("where all positions are {}, none is taken, and the result is 0", sign),
-                   fmt::format("begin with the first position, or with `{}99999.`", isLargest ? "-" : "")}});
+    reporter.report({.message = fmt::format("the search for the {} `#{}` begins at 0", which, search->position),
+                     .span = context.tree.expressions[*test->condition].span,
+                     .labels = {{start->zero, "begins here"}},
+                     .notes = {fmt::format("where all positions are {}, none is taken, and the result is 0", sign),
+                               fmt::format("begin with the first position, or with `{}99999.`", isLargest ? "-" : "")}},
+                    isLargest && isMostlyNegative(context, search->position) ? Severity::Warning : Severity::Info);
   }
 }
 
