@@ -26,6 +26,12 @@ std::optional<std::string_view> otherMeaning(const VariableUse &use, const FileC
   const std::string remark = remarksOf(context, use.block);
   const bool isMeasured =
       saysAny(remark, {"SPINDLE LOAD", "SERVO LOAD", "AXIS LOAD", "LOAD METER", "TEMPERATURE", "VIBRATION", "TORQUE"});
+  // A row of the dialect for this number alone says what it is.
+  const VariableRange *range = findVariable(context.dialect, *use.number);
+  if (!use.write && isMeasured && range && range->first == range->last && role == VariableRole::Volatile &&
+      !range->meaning.empty() &&
+      !saysAny(toUpper(range->meaning), {"LOAD", "TEMPERATURE", "VIBRATION", "TORQUE", "INPUT"}))
+    return range->meaning;
   if (!use.write && isMeasured && isModal(role))
     return "a code or a word that is in force, such as the number of the tool";
   if (!use.write && isMeasured && isPosition(role))
@@ -46,7 +52,9 @@ struct Place {
 /// One finding for all variables that hold the same.
 void tell(std::string_view meaning, const std::vector<Place> &places, const Reporter &reporter) {
   const Place &first = places.front();
-  Diagnostic diagnostic{.message = fmt::format("`#{}` is not what the remark says: it holds {}", first.number, meaning),
+  const bool hasArticle = meaning.starts_with("a ") || meaning.starts_with("the ");
+  Diagnostic diagnostic{.message = fmt::format("`#{}` is not what the remark says: it holds {}{}", first.number,
+                                               hasArticle ? "" : "the ", meaning),
                         .span = first.span,
                         .labels = {{first.remark, "the remark"}},
                         .notes = {"find the variable in the manual of the machine builder, or correct the remark"}};

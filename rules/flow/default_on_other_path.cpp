@@ -1,4 +1,5 @@
 // default-on-other-path: `IF[#9EQ#0]THEN#9=90.` in one part of a macro, and `F#9` in another without it.
+#include "rules/comments/remarks_of_block.h"
 #include "rules/flow/definitions.h"
 
 #include <algorithm>
@@ -53,6 +54,21 @@ bool isUnasked(const FlowFacts &facts, NodeId node, std::uint32_t argument, cons
          std::ranges::none_of(defaults, [&](const Default &its) { return isPassedAlways(facts, node, its.test); });
 }
 
+/// `(IF[#9EQ#0]THEN#9=.1)` in this part of the program: the default was taken out on purpose.
+bool isCommentedOut(const FlowFacts &facts, const FileContext &context, NodeId node, std::uint32_t argument) {
+  const std::string test = fmt::format("#{}EQ#0", argument);
+  for (BlockId block = facts.node(node).block; block > context.model.programs[facts.program].first;) {
+    block = BlockId(static_cast<std::uint32_t>(block.index() - 1));
+    if (findCode(context.tree, block, context.dialect, CodeRole::Return))
+      return false;
+    std::string remarks = remarksOf(context, block);
+    std::erase_if(remarks, isBlank);
+    if (remarks.find(test) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
 void tell(std::uint32_t argument, Span span, Span other, std::string consequence, const FileContext &context,
           const Reporter &reporter) {
   reporter.report(
@@ -71,7 +87,7 @@ void checkWord(const Word &word, BlockId block, const Defaults &defaults, const 
                             : std::nullopt;
   const auto its = argument ? defaults.find(*argument) : defaults.end();
   const auto node = its != defaults.end() ? nodeOf(facts, block, word.expression()) : std::nullopt;
-  if (node && isUnasked(facts, *node, *argument, its->second))
+  if (node && isUnasked(facts, *node, *argument, its->second) && !isCommentedOut(facts, context, *node, *argument))
     tell(*argument, word.span(), its->second.front().span,
          "the control ignores the word, and the feed of the program before stays in force", context, reporter);
 }

@@ -1,5 +1,6 @@
 // documented-argument-unread: `(G65 P9012 H_)` at the head of a macro that reads #8 (E), and never #11 (H).
 #include "rules/comments/header_call.h"
+#include "rules/flow/common_table.h"
 #include "rules/flow/definitions.h"
 
 #include <algorithm>
@@ -43,8 +44,9 @@ std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context,
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (isTooLarge(facts) || isCalledAsSubprogram(facts) ||
-      std::ranges::any_of(facts.file.model->variablesOf(facts.program),
-                          [&](const VariableUse &use) { return mayReadLocal(facts.file, use); }))
+      std::ranges::any_of(facts.file.model->variablesOf(facts.program), [&](const VariableUse &use) {
+        return mayReadLocal(facts.file, use) && !tableBase(facts, use.expression);
+      }))
     return;
   const auto header = headerCallOf(context, facts.program);
   if (!header)

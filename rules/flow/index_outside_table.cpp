@@ -33,7 +33,16 @@ struct Outside {
   VariableSpan table;
   bool isBelow;
   double nearest;
+  bool isNamedOnce = false; // by the largest of the values
 };
+
+/// `#[7001+[1+#23]*20]` behind a test for negative `#23`: only the largest value may name the first entry of the table,
+/// all others lie below.
+bool fallsFromFirst(const Interval &numbers, const VariableSpan &table) {
+  constexpr double kStep = 20;       // from one offset to the next
+  constexpr double kFarBelow = 1000; // the analysis knows no lower bound
+  return numbers.hi <= table.first + kStep + 2 && numbers.lo < table.first - kFarBelow;
+}
 
 std::optional<Outside> outsideAt(const FlowFacts &facts, const FileContext &context, const VariableUse &use) {
   const auto *indirect = as<IndirectVariable>(context.tree, use.expression);
@@ -46,6 +55,8 @@ std::optional<Outside> outsideAt(const FlowFacts &facts, const FileContext &cont
   const Interval &numbers = index->number().interval();
   if (numbers.hi < table.first)
     return Outside{&use, table, true, numbers.hi};
+  if (fallsFromFirst(numbers, table) && *base >= table.first)
+    return Outside{&use, table, true, numbers.hi, true};
   return numbers.lo >= static_cast<double>(table.last) + 1 ? std::optional(Outside{&use, table, false, numbers.lo})
                                                            : std::nullopt;
 }
@@ -60,14 +71,20 @@ void checkTables(const FlowFacts &facts, const FileContext &context, const Repor
     const Outside &first = all[i];
     const Span span = context.tree.expressions[first.use->expression].span;
     const auto node = nodeOf(facts, first.use->block, first.use->expression);
-    Diagnostic diagnostic{.message = fmt::format("{} never names a variable of the table from `#{}` to `#{}`",
-                                                 context.quoted(span), first.table.first, first.table.last),
-                          .span = span,
-                          .flow = node ? pathFromEntry(facts, *node) : std::vector<Label>{},
-                          .notes = {fmt::format("on this path the number is {} {:g}, {} the table",
-                                                first.isBelow ? "at most" : "at least", first.nearest,
-                                                first.isBelow ? "below" : "behind"),
-                                    "correct the base or the factor for this branch"}};
+    Diagnostic diagnostic{
+        .message =
+            fmt::format("{} {} a variable of the table from `#{}` to `#{}`", context.quoted(span),
+                        first.isNamedOnce ? "hardly ever names" : "never names", first.table.first, first.table.last),
+        .span = span,
+        .flow = node ? pathFromEntry(facts, *node) : std::vector<Label>{},
+        .notes = {first.isNamedOnce
+                      ? std::string("on this path the number falls from the first entry of the table on: all others "
+                                    "are variables below it, which the control uses without an alarm")
+                      : fmt::format("on this path the number is {} {:g}, {} the table",
+                                    first.isBelow ? "at most" : "at least", first.nearest,
+                                    first.isBelow ? "below" : "behind"),
+                  first.isNamedOnce ? "correct the sign of the factor for this branch"
+                                    : "correct the base or the factor for this branch"}};
     for (; i + 1 < all.size() && all[i + 1].use->block.index() - all[i].use->block.index() <= 1; ++i)
       diagnostic.labels.push_back({context.tree.expressions[all[i + 1].use->expression].span, "nor does this"});
     reporter.report(std::move(diagnostic));

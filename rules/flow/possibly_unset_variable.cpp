@@ -2,6 +2,8 @@
 #include "rules/flow/consistent_path.h"
 
 #include "base/support/text.h"
+#include "rules/flow/definitions.h"
+#include "rules/flow/loop_view.h"
 #include "rules/motion/folder_programs.h"
 
 #include <algorithm>
@@ -19,21 +21,64 @@ bool startsVacant(const FlowFacts &facts, bool isMain, std::uint32_t variable) {
   return isMain || (!letterOfArgument(*facts.file.dialect, variable) && !isCalledAsSubprogram(facts));
 }
 
+/// The use may set the common variable: `#[2000+#11]=` does not.
+bool mayWrite(const SyntaxTree &tree, const VariableUse &use, std::uint32_t variable) {
+  if (!use.write || use.number)
+    return use.write && use.number == variable;
+  const auto *indirect = as<IndirectVariable>(tree, use.expression);
+  const auto parts = indirect ? subexpressions(tree, indirect->index) : std::vector<ExpressionId>{};
+  return std::ranges::none_of(parts, [&](ExpressionId part) {
+    const auto base = literalValue(tree, part);
+    return base && *base >= Decimal(1000, 0);
+  });
+}
+
+/// `#121=#120-#111`: from common variables that the program sets itself.  A result of this run, nothing that is kept.
+bool isResult(const FlowFacts &facts, const VariableUse &use) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    const auto assignment =
+        facts.node(node).block == use.block && use.number ? assignmentTo(facts, node, *use.number) : std::nullopt;
+    if (!assignment || variableNumber(*facts.file.tree, unwrapped(*facts.file.tree, assignment->value)))
+      continue;
+    const auto reads = readsIn(facts.file, assignment->value, use.block);
+    return !reads.empty() && std::ranges::all_of(reads, [&](const Read &read) {
+      return read.number && read.number != use.number && isPlain(facts.file, *read.number) &&
+             !isLocal(facts.file, *read.number) && maySet(facts, *read.number);
+    });
+  }
+  return false;
+}
+
+/// The programs of the file set the variable for themselves: they read it, too.
+bool isScratchIn(const ProgramFile &file, std::uint32_t variable) {
+  return std::ranges::any_of(file.model->variables,
+                             [&](const VariableUse &use) { return !use.write && use.number == variable; });
+}
+
 /// A common variable with one assignment in the programs of the folder, which stands in this one: what it holds where
-/// that is passed over, none of them has put there.
+/// that is passed over, none of them has put there.  Where the assignment computes a result, other files may use the
+/// variable for results of their own.
 bool isSetOnlyHere(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(context.dialect, variable);
   if (!range || range->kind != VariableKind::Common || context.dialect.grammar.oWords ||
       isPromised(facts, context, variable))
     return false;
-  const auto mayWrite = [&](const VariableUse &use) { return use.write && (!use.number || *use.number == variable); };
+  const auto mayWriteHere = [&](const VariableUse &use) { return mayWrite(context.tree, use, variable); };
+  const auto own = context.model.variablesOf(facts.program);
+  const auto write = std::ranges::find_if(own, mayWriteHere);
+  if (write == own.end() || std::ranges::count_if(own, mayWriteHere) != 1 ||
+      std::ranges::count_if(context.model.variables, mayWriteHere) != 1)
+    return false;
+  const bool isOwnResult = isResult(facts, *write);
   const auto calls = context.model.callsOf(facts.program);
-  return std::ranges::count_if(context.model.variablesOf(facts.program), mayWrite) == 1 &&
-         std::ranges::count_if(context.model.variables, mayWrite) == 1 &&
-         std::ranges::none_of(filesOfFolder(context),
-                              [&](FileId file) {
-                                return file != context.file &&
-                                       std::ranges::any_of(facts.programs.file(file).model->variables, mayWrite);
+  return std::ranges::none_of(filesOfFolder(context),
+                              [&](FileId id) {
+                                const ProgramFile &file = facts.programs.file(id);
+                                const bool writes = id != context.file &&
+                                                    std::ranges::any_of(file.model->variables, [&](const auto &use) {
+                                                      return mayWrite(*file.tree, use, variable);
+                                                    });
+                                return writes && !(isOwnResult && isScratchIn(file, variable));
                               }) &&
          std::ranges::all_of(calls, [&](const Call &call) {
            return call.kind == CallKind::ModalCancel || call.kind == CallKind::Local ||
@@ -126,7 +171,8 @@ bool isPlainlyPassed(const FlowFacts &facts, const UnsetPaths &paths, std::span<
   return false;
 }
 
-void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts, const FileContext &context,
+/// True: it was reported.
+bool checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts, const FileContext &context,
                const Reporter &reporter) {
   const auto node = nodeOf(facts, read.block, read.expression);
   const UnsetPaths paths(facts, variable);
@@ -134,10 +180,10 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
   const bool isCommon = !facts.programs.isLocalName(variable) && !isLocal(facts.file, variable);
   if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node) ||
       (isCommon && isKeptArgument(facts, paths, variable)))
-    return;
+    return false;
   const auto path = findConsistentPath(facts, *node, [&](NodeId each) { return paths.sets(each); });
   if (!path || (facts.programs.isLocalName(variable) && !isPlainlyPassed(facts, paths, *path)))
-    return;
+    return false;
   const Span span = context.tree.expressions[read.expression].span;
   reporter.report(
       {.message = fmt::format("{} is not set on every path to this block", context.quoted(span)),
@@ -151,6 +197,7 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
                      : "without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
                  "set it before the conditions, or close the gap between them"}},
       passesCases(facts, paths, *path) ? Severity::Info : Severity::Warning);
+  return true;
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -170,9 +217,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const AbstractValue *value = facts.valueOf(read.expression);
     if (!value || (!isName && (!value->mayBeVacant() || !maySet(facts, *variable))))
       continue;
-    done.push_back(*variable);
-    if (isName ? !isAskedFor(facts, *variable) : !isTestedForVacancy(facts.file, facts.program, *variable))
-      checkRead(read, *variable, facts, context, reporter);
+    const bool isAsked =
+        isName ? isAskedFor(facts, *variable) : isTestedForVacancy(facts.file, facts.program, *variable);
+    // A common variable may be read under the condition first, and without it later.
+    if (isAsked || checkRead(read, *variable, facts, context, reporter) || isOwn)
+      done.push_back(*variable);
   }
 }
 

@@ -28,6 +28,25 @@ bool isInBrokenBlock(const FileContext &context, ProgramId program, std::uint32_
   });
 }
 
+/// Some condition asks for the argument itself: for vacant, or against a constant.  `[#[2000+#20] GT #1]` relies on it.
+bool isAskedFor(const FlowFacts &facts, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto isIt = [&](ExpressionId side) { return variableNumber(tree, unwrapped(tree, side)) == variable; };
+  const auto relies = [&](ExpressionId id) {
+    const auto *relation = as<BinaryOperation>(tree, id);
+    const bool isOrder = relation && isRelation(relation->op) && relation->op != OperatorKind::Equal &&
+                         relation->op != OperatorKind::NotEqual;
+    return isOrder && isIt(relation->right) && !isConstant(tree, relation->left) &&
+           !variableNumber(tree, unwrapped(tree, relation->left));
+  };
+  std::size_t reliances = 0, tests = 0;
+  for (const Read &read : readsOf(facts))
+    tests += read.number == variable && (read.use == ReadUse::Equality || read.use == ReadUse::Ordering) ? 1 : 0;
+  for (const BlockId block : blocksOf(facts.file, facts.program))
+    reliances += static_cast<std::size_t>(std::ranges::count_if(expressionsOf(facts.file, block), relies));
+  return tests > reliances || (tests == 0 && isTested(facts.file, facts.program, variable));
+}
+
 /// Reads of arguments that the list does not name, as a call has passed them; the first of each variable.
 std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context, const ArgumentList &list) {
   std::vector<Read> found;
@@ -35,7 +54,7 @@ std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context,
     const bool isOther = read.number && read.use != ReadUse::Other && letterOfArgument(context.dialect, *read.number) &&
                          !list.variables.contains(*read.number) &&
                          std::ranges::find(found, read.number, &Read::number) == found.end();
-    if (!isOther || isTested(facts.file, facts.program, *read.number) || isPassed(facts, *read.number) ||
+    if (!isOther || isAskedFor(facts, *read.number) || isPassed(facts, *read.number) ||
         isInBrokenBlock(context, facts.program, *read.number))
       continue;
     const auto node = nodeOf(facts, read.block, read.expression);
@@ -65,6 +84,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                   "read the variable of an argument that is passed, or add this one to the list"}};
   for (std::size_t i = 1; i < others.size(); ++i)
     diagnostic.labels.push_back({context.tree.expressions[others[i].expression].span, "nor this one"});
+  for (const Read &other : readsOf(facts))
+    if (other.number == read.number && other.expression != read.expression)
+      diagnostic.labels.push_back({context.tree.expressions[other.expression].span, "read here as well"});
   reporter.report(std::move(diagnostic));
 }
 

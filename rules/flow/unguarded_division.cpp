@@ -1,4 +1,5 @@
 // unguarded-division: `#26/#17` where nothing asks whether Q was passed.
+#include "rules/flow/definitions.h"
 #include "rules/flow/passed_values.h"
 
 #include <algorithm>
@@ -55,6 +56,24 @@ std::optional<std::uint32_t> factorIn(const FlowFacts &facts, ExpressionId id, i
   return value ? factorIn(facts, *value, copies + 1) : std::nullopt;
 }
 
+/// `360/#10` behind `#10=#7`: the copy is checked and counted down only behind the division.
+std::optional<std::uint32_t> copiedArgument(const FlowFacts &facts, std::uint32_t variable, NodeId at) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto known = isLocal(facts.file, variable) ? definitionsOf(facts, variable, at) : std::nullopt;
+  if (!known || known->fromEntry || known->nodes.size() != 1)
+    return std::nullopt;
+  const auto assignment = assignmentTo(facts, known->nodes.front(), variable);
+  const auto source = assignment ? variableNumber(tree, unwrapped(tree, assignment->value)) : std::nullopt;
+  if (!source || argumentBehind(facts, *source) != source)
+    return std::nullopt;
+  const BlockId division = facts.node(at).block;
+  const auto isAskedBefore = [&](const Read &read) {
+    return read.number == variable && read.block <= division &&
+           (read.use == ReadUse::Equality || read.use == ReadUse::Ordering);
+  };
+  return std::ranges::any_of(readsOf(facts), isAskedBefore) ? std::nullopt : source;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<std::uint32_t> done;
   if (isMainProgram(facts))
@@ -66,13 +85,16 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const auto divisor = expressionAt(facts, block, alarm.place);
     const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
     const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
+    const auto copied = value ? copiedArgument(facts, *variable, alarm.node) : std::nullopt;
     auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
+    argument = argument ? argument : copied;
     const bool isFactor = !argument && divisor && !isTooLarge(facts);
     if (isFactor)
       argument = factorIn(facts, *divisor);
     if (!argument || std::ranges::find(done, *argument) != done.end() ||
         isTested(facts.file, facts.program, *argument) ||
-        (variable && isTested(facts.file, facts.program, *variable)) || mayHoldCallersValue(facts, *argument))
+        (variable && !copied && isTested(facts.file, facts.program, *variable)) ||
+        mayHoldCallersValue(facts, *argument))
       continue;
     done.push_back(*argument);
     const PassedValues passed = passedFor(*argument, facts, context);

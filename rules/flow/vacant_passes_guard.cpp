@@ -1,4 +1,5 @@
 // vacant-passes-guard: `IF[#1EQ0]` lets an argument through that was not passed, as `IF[#1NE0]` past the alarm does.
+#include "rules/flow/common_table.h"
 #include "rules/flow/definitions.h"
 
 #include <algorithm>
@@ -76,7 +77,7 @@ bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::ui
   });
 }
 
-enum class GuardKind : std::uint8_t { Alarm, Default, CommonDefault, Operator, Division };
+enum class GuardKind : std::uint8_t { Alarm, Default, CommonDefault, Operator, Division, Table };
 
 struct Guard {
   Span span;
@@ -146,7 +147,67 @@ std::optional<Guard> guardOfDivision(const FlowFacts &facts, const FileContext &
   return std::nullopt;
 }
 
+/// Some condition tells vacant from a number: `EQ #0`, or an order with a literal, for which vacant is 0.
+bool isVacancySeen(const FlowFacts &facts, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto sees = [&](ExpressionId id) {
+    const auto *relation = as<BinaryOperation>(tree, id);
+    if (!relation || !isRelation(relation->op))
+      return false;
+    const bool isEquality = relation->op == OperatorKind::Equal || relation->op == OperatorKind::NotEqual;
+    for (const auto &[own, other] :
+         {std::pair{relation->left, relation->right}, std::pair{relation->right, relation->left}})
+      if (variableNumber(tree, unwrapped(tree, own)) == variable &&
+          (isEquality ? variableNumber(tree, unwrapped(tree, other)) == kVacantVariable
+                      : literalValue(tree, other).has_value()))
+        return true;
+    return false;
+  };
+  return std::ranges::any_of(blocksOf(facts.file, facts.program), [&](BlockId block) {
+    return std::ranges::any_of(expressionsOf(facts.file, block), sees);
+  });
+}
+
+/// `#[550+#1]=0` in the file: the whole table is set before.
+bool isFilledHere(const FlowFacts &facts, const FileContext &context, std::uint32_t base) {
+  return std::ranges::any_of(context.model.variables, [&](const VariableUse &use) {
+    return use.write && !use.number && tableBase(facts, use.expression) == base;
+  });
+}
+
+/// Some common variables are cleared to vacant at power-off; where all are kept, an unused one is shown as 0.
+bool clearsToVacant(const Dialect &dialect) {
+  return std::ranges::find(dialect.variables, VariableKind::Common, &VariableRange::kind) != dialect.variables.end();
+}
+
+/// `#3=#[550+#1]`, `IF[#3EQ0]THEN M99`, and then a computation or an order with #3: an entry that nobody has filled is
+/// vacant, and passes the test.
+std::optional<Guard> guardOfTable(const FlowFacts &facts, const FileContext &context, NodeId test, ExpressionId part) {
+  const auto *relation = as<BinaryOperation>(context.tree, part);
+  const bool isAsked = relation && relation->op == OperatorKind::Equal && clearsToVacant(context.dialect);
+  const auto compared = isAsked ? comparedWithZero(context.tree, *relation) : std::nullopt;
+  const auto variable = compared ? variableNumber(context.tree, *compared) : std::nullopt;
+  const auto known = variable ? definitionsOf(facts, *variable, test) : std::nullopt;
+  if (!known || known->fromEntry || known->nodes.size() != 1)
+    return std::nullopt;
+  const auto read = assignmentTo(facts, known->nodes.front(), *variable);
+  const auto base = read ? tableBase(facts, read->value) : std::nullopt;
+  const VariableRange *range = base ? findVariable(context.dialect, *base) : nullptr;
+  if (!range || (range->kind != VariableKind::Common && range->kind != VariableKind::Retentive) ||
+      isVacancySeen(facts, *variable) || isFilledHere(facts, context, *base))
+    return std::nullopt;
+  const auto isUsedBehind = [&](const Read &each) {
+    return each.number == variable && each.block > facts.node(test).block &&
+           (each.use == ReadUse::Ordering || each.use == ReadUse::Computed);
+  };
+  return std::ranges::any_of(readsOf(facts), isUsedBehind)
+             ? std::optional(Guard{context.tree.expressions[part].span, *variable, GuardKind::Table})
+             : std::nullopt;
+}
+
 std::string describe(const FileContext &context, const Guard &guard) {
+  if (guard.kind == GuardKind::Table)
+    return "vacant entry of the table";
   return guard.variable > kLocalVariables
              ? fmt::format("vacant `#{}`", guard.variable)
              : fmt::format("missing {}", describeVariable(context.dialect, guard.variable));
@@ -157,6 +218,10 @@ std::vector<std::string> notesFor(const Guard &guard, const FileContext &context
   if (guard.kind == GuardKind::Division)
     return {fmt::format("`EQ` and `NE` tell vacant from 0, a division does not: there the control {}",
                         stopsWith(context.dialect, AlarmKind::DivideByZero)),
+            fmt::format("check {} as well", test)};
+  if (guard.kind == GuardKind::Table)
+    return {"a common variable that nobody has set is vacant, and `EQ` does not treat vacant as 0: what follows "
+            "computes with it as 0",
             fmt::format("check {} as well", test)};
   if (guard.isNotEqual)
     return {"`NE` tells vacant from 0: the jump past the alarm is taken", fmt::format("check {} as well", test)};
@@ -199,6 +264,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     for (const ExpressionId part : subexpressions(context.tree, *test->condition))
       if (const auto guard = passingGuard(facts, context, node, part))
         guards[guard->kind].push_back(*guard);
+      else if (const auto table = guardOfTable(facts, context, node, part))
+        guards[table->kind].push_back(*table);
   }
   for (const AlarmFact &alarm : facts.alarms())
     if (alarm.kind == AlarmKind::DivideByZero && !alarm.always)

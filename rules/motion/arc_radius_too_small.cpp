@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -37,9 +38,11 @@ public:
     const bool isIncremental = view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
     bool &inAll = incremental_.try_emplace(node, true).first->second;
     inAll = inAll && isIncremental;
-    const Fit fit = fitOf(node, *radius, state);
+    const auto chord = chordOf(node, state);
     const bool isNew = radii_.emplace(node, radius).second;
-    fits_[node] = isNew || fits_[node] == fit ? fit : Fit::Other;
+    chords_[node] = !chord || (!isNew && !chords_[node]) ? std::nullopt
+                    : isNew                              ? chord
+                                                         : std::optional(std::min(*chords_[node], *chord));
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
@@ -49,7 +52,7 @@ public:
         if (const Word *radius = wordOf(alarm.node, 'R'); radius && !radii_.contains(alarm.node))
           tellTooSmall(facts, alarm.node, *radius, context, reporter);
     for (const auto &[node, radius] : radii_) {
-      if (fits_.at(node) == Fit::TooSmall) {
+      if (isTooSmall(facts, node, *radius)) {
         tellTooSmall(facts, node, *radius, context, reporter);
         continue;
       }
@@ -74,18 +77,21 @@ private:
       }
     return found;
   }
-  enum class Fit : std::uint8_t { Other, TooSmall };
-
-  Fit fitOf(NodeId node, const Word &radius, const AbstractState &state) const {
+  /// In every state the chord is at least this long.
+  std::optional<double> chordOf(NodeId node, const AbstractState &state) const {
     const auto x = distanceAlong(Axis::X, node, state);
     const auto y = distanceAlong(Axis::Y, node, state);
-    if (!radius.isNumber() || !x || !y)
-      return Fit::Other;
+    return x && y ? std::optional(std::hypot(*x, *y)) : std::nullopt;
+  }
+  bool isTooSmall(const FlowFacts &facts, NodeId node, const Word &radius) const {
+    const AbstractValue *computed =
+        radius.form() == WordForm::Expression ? facts.valueOf(radius.expression()) : nullptr;
+    const auto value = radius.isNumber()                  ? std::optional(radius.number().toDouble())
+                       : computed && computed->isNumber() ? computed->number().constantValue()
+                                                          : std::nullopt;
+    const auto &chord = chords_.at(node);
     // In inches the tolerance is a smaller number; which units are in force need not be known.
-    const double tolerance = view_.context().dialect.behaviour.arcTolerance;
-    const double diameter = 2 * std::abs(radius.number().toDouble());
-    const double chord = std::hypot(*x, *y);
-    return chord > diameter + 2 * tolerance ? Fit::TooSmall : Fit::Other;
+    return value && chord && *chord > 2 * std::abs(*value) + 2 * view_.context().dialect.behaviour.arcTolerance;
   }
   std::optional<double> distanceAlong(Axis axis, NodeId node, const AbstractState &state) const {
     const auto end = placeOf(state, axis);
@@ -139,7 +145,7 @@ private:
   MotionView view_;
   std::array<std::optional<double>, kAxisCount> start_; // of the node that is being executed
   std::map<NodeId, const Word *> radii_;                // of arcs
-  std::map<NodeId, Fit> fits_;                          // in all states
+  std::map<NodeId, std::optional<double>> chords_;      // the shortest, in all states
   std::set<NodeId> unclear_;                            // in some state
   std::map<NodeId, bool> incremental_;                  // in all states
 };

@@ -20,10 +20,17 @@ bool hasWord(const FileContext &context, BlockId block, std::string_view address
   });
 }
 
+/// `#1=0` moves nothing; a condition may lead past the hole.
+bool onlyAssigns(const FileContext &context, BlockId block) {
+  return std::ranges::all_of(context.tree.statementsOf(block), [](const Statement &statement) {
+    return std::holds_alternative<Assignment>(statement.node);
+  });
+}
+
 /// The block may move the tool, or it is not known what it does.
 bool mayPosition(const FileContext &context, BlockId block) {
   return hasWord(context, block, "XYUVABC") || context.tree.blocks[block].has(Block::kBroken) ||
-         !context.tree.statementsOf(block).empty() ||
+         !onlyAssigns(context, block) ||
          findAction(context.tree, block, context.dialect,
                     {CodeAction::Anything, CodeAction::Unmodelled, CodeAction::PlaneZX, CodeAction::PlaneYZ});
 }

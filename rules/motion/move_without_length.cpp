@@ -1,4 +1,5 @@
 // move-without-length: `G49`, and in a later block `G00 Z#18`.
+#include "rules/flow/flow_view.h"
 #include "rules/motion/motion_view.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ public:
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     // Hobby machines have G49 in each preamble, and tools without lengths.
-    if (moves_.empty() || context.dialect.behaviour.endRestoresModes || !usesLengthOffset(facts))
+    if (moves_.empty() || context.dialect.behaviour.endRestoresModes ||
+        (!usesLengthOffset(facts) && !isCalled(facts, context)))
       return;
     std::ranges::sort(moves_);
     for (NodeId off = facts.entry(); off < facts.end(); off = off.next())
@@ -37,6 +39,10 @@ private:
       if (word->address() == 'Z')
         return word;
     return nullptr;
+  }
+  /// A macro works with the tool, and the length offset, of its caller.
+  static bool isCalled(const FlowFacts &facts, const FileContext &context) {
+    return context.model.programs[facts.program].returns && !isMainProgram(facts);
   }
   bool usesLengthOffset(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node < facts.end(); node = node.next())

@@ -3,18 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace feedhold::rules::offset_value_as_number {
 namespace {
 
+/// `#[6100+#2233]` in the file: what the variable holds is a number of something, whatever the table says.
+bool isIndexOfOther(const FileContext &context, std::uint32_t variable) {
+  return std::ranges::any_of(context.model.variables, [&](const VariableUse &use) {
+    const auto *indirect = as<IndirectVariable>(context.tree, use.expression);
+    return indirect && std::ranges::any_of(subexpressions(context.tree, indirect->index), [&](ExpressionId part) {
+             return variableNumber(context.tree, part) == variable;
+           });
+  });
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (word.form() != WordForm::Expression || word.has(Word::kArgument) ||
       !context.model.callsIn(block, block.next()).empty())
     return;
   const auto number = tableNumber(context, word.expression());
-  if (!number || !isToolOffset(context, *number))
+  if (!number || !isToolOffset(context, *number) || isIndexOfOther(context, *number))
     return;
   const Span value = context.tree.expressions[word.expression()].span;
   reporter.report(

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <string_view>
+#include <vector>
 
 namespace feedhold::rules::position_in_other_coordinates {
 namespace {
@@ -18,12 +19,19 @@ public:
       : view_(program, context), context_(context), asked_(readsPositions(program)) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!asked_ || !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+    if (!view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+      return;
+    if (!asked_ && !view_.mayDo(node, {CodeAction::MachineMove, CodeAction::Skip}))
       return;
     const bool isMachineMove =
         view_.mayDo(node, {CodeAction::MachineMove}) && view_.findAction(node, {CodeAction::MachineMove}) != nullptr;
     if (!isMachineMove && view_.findAction(node, {CodeAction::WorkOffset, CodeAction::ExtendedWorkOffset}))
       return;
+    if (isMachineMove || view_.findAction(node, {CodeAction::Skip}))
+      for (const Word *word : view_.wordsOf(node))
+        if (std::string_view("XYZ").find(word->address()) != std::string_view::npos &&
+            word->form() == WordForm::Expression)
+          (isMachineMove ? machine_ : skips_).push_back({node, word});
     for (const Word *word : isMachineMove ? view_.wordsOf(node) : view_.modalMotionWords(node))
       if (std::string_view("XYZABC").find(word->address()) != std::string_view::npos &&
           word->form() == WordForm::Expression)
@@ -31,6 +39,7 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    checkSkips(facts, context, reporter);
     std::optional<NodeId> told; // one finding for a block
     for (const auto &[place, isMachineMove] : uses_) {
       const auto &[node, word] = place;
@@ -55,6 +64,46 @@ public:
   }
 
 private:
+  struct Use {
+    NodeId node;
+    const Word *word;
+  };
+
+  /// Of `Z[#512-10]`: #512.
+  std::optional<std::uint32_t> baseOf(const FlowFacts &facts, const Word &word) const {
+    std::optional<std::uint32_t> found;
+    for (const SumTerm &term : termsOf(context_.tree, word.expression())) {
+      if (isConstant(context_.tree, term.value))
+        continue;
+      const auto variable = variableOf(facts, term.value);
+      if (found || term.isMinus || !variable)
+        return std::nullopt;
+      found = variable;
+    }
+    return found;
+  }
+  /// `G53 G00 Z[#512+25]`, and `G31 Z[#512-10]`: the value cannot be both.
+  void checkSkips(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) const {
+    for (const Use &skip : skips_)
+      for (const Use &machine : machine_) {
+        const auto base = skip.word->address() == machine.word->address() ? baseOf(facts, *skip.word) : std::nullopt;
+        if (!base || base != baseOf(facts, *machine.word))
+          continue;
+        const auto here = definitionsOf(facts, *base, skip.node);
+        if (!here || here != definitionsOf(facts, *base, machine.node))
+          continue;
+        reporter.report(
+            {.message = fmt::format("{} moves to a machine coordinate as if it were a work coordinate",
+                                    context.quoted(skip.word->span())),
+             .span = skip.word->span(),
+             .labels = {{machine.word->span(), "with `G53`, a machine coordinate"}},
+             .notes = {"`G53` is active in its own block only: the skip move goes to this place in the work offset "
+                       "that is active",
+                       "probe by a distance under `G91`, or subtract the work offset"}});
+        return;
+      }
+  }
+
   bool readsPositions(ProgramId program) const {
     const auto uses = context_.model.variablesOf(program);
     return std::ranges::any_of(uses, [&](const VariableUse &use) {
@@ -93,6 +142,7 @@ private:
   const FileContext &context_;
   bool asked_;
   std::map<std::pair<NodeId, const Word *>, bool> uses_;
+  std::vector<Use> machine_, skips_; // words with expressions under G53, and of skip moves
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

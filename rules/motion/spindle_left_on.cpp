@@ -1,5 +1,6 @@
 // spindle-left-on: `M99` with the spindle running, and the other returns of the program stop it.
 #include "rules/flow/flow_view.h"
+#include "rules/flow/loop_view.h"
 #include "rules/motion/motion_view.h"
 
 #include <algorithm>
@@ -9,11 +10,12 @@ namespace {
 
 bool isStopped(const ExitFact &exit) { return exit.state.spindle.isOnly(0); }
 
-/// By the program, in all runs that come there.
+/// By the program, in all runs that come there, if a loop runs at least once.
 bool isRunning(const ExitFact &exit) {
   const CodeSet &spindle = exit.state.spindle;
-  return !spindle.mayBeAtEntry() && !spindle.contains(0) && spindle.codes() != 0;
+  return !spindle.contains(0) && spindle.codes() != 0;
 }
+bool isSurelyRunning(const ExitFact &exit) { return isRunning(exit) && !exit.state.spindle.mayBeAtEntry(); }
 
 struct Leaving {
   const Word *start;
@@ -37,6 +39,17 @@ std::optional<Leaving> leavingTo(const ExitFact &exit, const MotionView &view, c
   return std::nullopt;
 }
 
+/// `S#100 M03`, `G04 P#103` again and again: the spindle is warmed up.
+bool warmsUp(const Leaving &leaving, const MotionView &view, const FlowFacts &facts) {
+  const NodeId start = leaving.path.front();
+  return std::ranges::any_of(loopsOf(facts), [&](const LoopFlow &loop) {
+    const auto isIn = [&](NodeId node) { return std::ranges::find(loop.nodes, node) != loop.nodes.end(); };
+    return isIn(start) && std::ranges::any_of(loop.nodes, [&](NodeId node) {
+             return view.findAction(node, {CodeAction::Dwell}) != nullptr;
+           });
+  });
+}
+
 /// The tool moves between the start and the return: the program is not there to start the spindle.
 bool works(const Leaving &leaving, const MotionView &view) {
   return std::ranges::any_of(leaving.path, [&](NodeId node) { return !view.axisWords(node).empty(); });
@@ -56,11 +69,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       running.push_back(&exit);
   }
   constexpr std::size_t kHabit = 2;
-  if (stopped.size() < kHabit || running.size() >= stopped.size())
+  const auto surely = std::ranges::count_if(running, [](const ExitFact *exit) { return isSurelyRunning(*exit); });
+  if (stopped.size() < kHabit || static_cast<std::size_t>(surely) >= stopped.size())
     return;
   const MotionView view(facts.program, context);
   for (const ExitFact *exit : running)
-    if (const auto leaving = leavingTo(*exit, view, facts); leaving && works(*leaving, view))
+    if (const auto leaving = leavingTo(*exit, view, facts);
+        leaving && ((isSurelyRunning(*exit) && works(*leaving, view)) || warmsUp(*leaving, view, facts)))
       reporter.report({.message = "the spindle is still on at this return: the other returns of the program stop it",
                        .span = view.blockSpan(exit->node),
                        .labels = {{leaving->start->span(), "started here"},

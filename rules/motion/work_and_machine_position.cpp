@@ -61,6 +61,49 @@ private:
   MotionView view_;
 };
 
+/// `ABS[#5001-#5021]`: what is inside of ABS.  A difference with its sign may be an offset that is to be set.
+std::vector<ExpressionId> distancesIn(const SyntaxTree &tree, ExpressionId value) {
+  std::vector<ExpressionId> found;
+  for (const ExpressionId part : subexpressions(tree, value))
+    if (const auto *call = as<FunctionCall>(tree, part); call && call->function == FunctionKind::Abs)
+      for (const ExpressionId argument : call->arguments())
+        found.push_back(unwrapped(tree, argument));
+  return found;
+}
+
+/// One finding for X, Y and Z.
+void checkDistances(const Positions &positions, const FlowFacts &facts, const FileContext &context,
+                    const Reporter &reporter) {
+  std::optional<Diagnostic> told;
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    for (const Assignment &assignment : facts.isReached(node) ? assignmentsOf(facts, node) : std::vector<Assignment>{})
+      for (const ExpressionId part : distancesIn(context.tree, assignment.value)) {
+        const auto *difference = as<BinaryOperation>(context.tree, part);
+        if (!difference || difference->op != OperatorKind::Subtract)
+          continue;
+        const auto left = positions.of(difference->left, node);
+        const auto right = positions.of(difference->right, node);
+        if (!left || !right || left->coordinates == right->coordinates)
+          continue;
+        const Position &machine = left->coordinates == Coordinates::Machine ? *left : *right;
+        const Span span = context.tree.expressions[part].span;
+        if (told) {
+          told->labels.push_back({span, "nor is this"});
+          continue;
+        }
+        told = {.message = fmt::format("{} is no distance: one is a work coordinate, the other a machine coordinate",
+                                       context.quoted(span)),
+                .span = span,
+                .notes = {"they differ by the work offset and the tool length offset, wherever the axis stands",
+                          "subtract positions of one coordinate system: `#5021` and on are machine, `#5001`, `#5041` "
+                          "and `#5061` and on are work coordinates"}};
+        if (!span.contains(machine.origin))
+          told->labels.push_back({machine.origin, "a machine coordinate"});
+      }
+  if (told)
+    reporter.report(std::move(*told));
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const auto reads = context.model.variablesOf(facts.program);
   if (isTooLarge(facts) || std::ranges::none_of(reads, [&](const VariableUse &use) {
@@ -68,6 +111,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       }))
     return;
   const Positions positions(facts, context);
+  checkDistances(positions, facts, context, reporter);
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     if (!test || !test->condition || !facts.isReached(node))
@@ -102,7 +146,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule workAndMachinePosition;
 const Rule workAndMachinePosition{
     .info = {"work-and-machine-position", Category::Motion, Severity::Warning,
-             "Reports a condition that compares a work coordinate with a machine coordinate."},
+             "Reports a condition that compares a work coordinate with a machine coordinate, and a distance "
+             "between two such."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::work_and_machine_position

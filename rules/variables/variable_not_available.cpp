@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kForeignVariables = 4;
 constexpr std::size_t kForeignBesideCodes = 2; // in a program with as many G codes that do not exist
+constexpr std::uint32_t kFirstSystem = 1000;
 
 /// The nearest ranges around a number that is in none, for "the control has #1-#33 and #100-#199".
 std::string neighbours(const Dialect &dialect, std::uint32_t number) {
@@ -104,8 +105,10 @@ void reportOtherControl(const Uses &uses, const std::map<std::string, Span> &cod
 
 void check(const FileContext &context, const Reporter &reporter) {
   const Uses uses = usesOf(context);
-  // One code is the builder's own on many machines; beside a slip or two it says nothing.
-  const auto codes = uses.size() >= kForeignBesideCodes ? foreignCodesOf(context) : std::map<std::string, Span>();
+  // One code is the builder's own on many machines; beside a slip or two it says nothing.  `#42` alone is a slip on
+  // every control; a lone system variable may be one of the control that has the codes.
+  const bool isForeign = uses.size() >= kForeignBesideCodes || (!uses.empty() && uses.begin()->first >= kFirstSystem);
+  const auto codes = isForeign ? foreignCodesOf(context) : std::map<std::string, Span>();
   if (codes.size() >= kForeignBesideCodes || (!codes.empty() && uses.size() >= kForeignVariables))
     return reportOtherControl(uses, codes, context, reporter);
   if (uses.size() >= kForeignVariables)

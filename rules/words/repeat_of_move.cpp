@@ -33,12 +33,20 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Word *motion = motionOf(context, block);
   if (!motion)
     return;
+  const auto &behaviour = context.dialect.behaviour;
+  // A control that repeats cycles by L alone: its manual names cycles and calls, but its users repeat helices as well.
+  const bool isCustomary = !behaviour.repeatsByK && !behaviour.stopsAtStrayWords;
   reporter.report(
-      {.message = fmt::format("{} does not repeat {}", context.quoted(repeats->span()), context.quoted(motion->span())),
+      {.message = fmt::format("{} {} repeat {}", context.quoted(repeats->span()), isCustomary ? "may not" : "does not",
+                              context.quoted(motion->span())),
        .span = repeats->span(),
-       .labels = {{motion->span(), "moves once"}},
-       .notes = {"L repeats canned cycles and calls; a move is executed once, or the control stops",
-                 "program the move in a WHILE loop, or in a subprogram that is called with L"}});
+       .labels = {{motion->span(), isCustomary ? "the move" : "moves once"}},
+       .notes = {isCustomary
+                     ? "the manual of the control names L for canned cycles and calls only; whether it repeats a "
+                       "move depends on the software"
+                     : "L repeats canned cycles and calls; a move is executed once, or the control stops",
+                 "program the move in a WHILE loop, or in a subprogram that is called with L"}},
+      isCustomary ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

@@ -176,6 +176,11 @@ TEST(Guess, OneCommandOfFluidNcRefusesAProgramWithNames) {
   EXPECT_EQ(guessed("G38.3 Z[#<_a>] F300\no9 if [#<_a> GT 1]\n(abort, bad)\no9 endif\nM2\n", "check.ngc"), "linuxcnc");
 }
 
+TEST(Guess, OneSettingByItsPathIsFluidNc) {
+  EXPECT_EQ(guessed("#<_a>=5\nG53 G0 Z#</probe/rapid_z>\nG53 G38.2 Z-40 F500\nD#<_a>\nM2\n", "set.nc"),
+            "RS274NGC of grblHAL or FluidNC");
+}
+
 TEST(Guess, Huazhong) {
   constexpr std::string_view kHuazhong = "a macro for Huazhong HNC";
   EXPECT_EQ(guessed("%0001\nG92 X0 Z50\n#10=0\nWHILE #10 LE 8\nG1 X[#10] F500\n#10=#10+0.1\nENDW\nM30\n"), kHuazhong);
