@@ -24,7 +24,10 @@ std::vector<ToolSection> toolSectionsOf(ProgramId program, const FileContext &co
 bool endsInProse(const FileContext &context, BlockId block) {
   const auto words = context.tree.wordsOf(block);
   const auto read = std::ranges::find_if(words, [](const Word &word) { return !word.isNumber(); });
-  if (read == words.begin() || !context.tree.statementsOf(block).empty() ||
+  const bool isRead = std::ranges::all_of(context.tree.statementsOf(block), [](const Statement &statement) {
+    return std::holds_alternative<BrokenStatement>(statement.node);
+  });
+  if (read == words.begin() || !isRead ||
       std::any_of(read, words.end(), [](const Word &word) { return word.form() != WordForm::Missing; }))
     return false;
   const auto comments = context.tree.commentsOf(block);
