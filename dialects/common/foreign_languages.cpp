@@ -103,9 +103,8 @@ constexpr std::array kCompiler = {
     LanguageHint{TextSignal::CompilerDirective, 25},
 };
 constexpr std::array kSimulator = {
-    LanguageHint{TextSignal::SimulatorSection, 40},
-    LanguageHint{TextSignal::SimulatorCall, 8},
-    LanguageHint{TextSignal::SimulatorCommand, 30},
+    LanguageHint{TextSignal::SimulatorSection, 40}, LanguageHint{TextSignal::SimulatorCall, 8},
+    LanguageHint{TextSignal::SimulatorCommand, 10}, // one of them is a line that is wrong, in a program to be checked
 };
 /// Sliding-head lathes of Citizen, and controls of Mitsubishi with several systems.  A program has a part for each, and
 /// none of them can be followed without those that it waits for.

@@ -39,6 +39,12 @@ inline bool saysAny(std::string_view remark, std::initializer_list<std::string_v
   return std::ranges::any_of(words, [&](std::string_view word) { return remark.find(word) != std::string_view::npos; });
 }
 
+/// The remark of a T word, in capitals, in the languages of the shops.
+inline bool speaksOfBoringBar(std::string_view remark) {
+  return saysAny(remark, {"BORING BAR", "BORING TOOL", "BORE BAR", "BARRA DE MANDRILAR", "BARRA DE MANDRINAR",
+                          "BARRE D'ALESAGE", "BOHRSTANGE", "INNENDREH"});
+}
+
 /// `M00 (MEASURED: ) #150`: only blanks are between a remark and the place.
 inline bool standsBehindRemark(const FileContext &context, Span place) {
   const BlockId block = context.tree.blockAt(place.begin);

@@ -26,6 +26,8 @@ std::optional<std::int64_t> toolOf(std::string_view entry) {
     return std::nullopt;
   std::size_t at = 1;
   std::int64_t number = 0;
+  if (toUpper(text[at]) == 'O') // `TO1`: the letter in the place of the digit 0
+    at += 1;
   for (; at < text.size() && isDigit(text[at]); ++at)
     number = number * 10 + (text[at] - '0');
   const std::size_t digits = at - 1;

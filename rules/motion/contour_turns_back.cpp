@@ -28,6 +28,13 @@ std::optional<std::size_t> turnOf(const std::vector<TurningPoint> &corners, Alon
   return std::nullopt;
 }
 
+/// The last block goes back along the way that the blocks before it cut: at the same X, or the same Z of a face.
+bool dragsBack(const std::vector<TurningPoint> &corners, Along along) {
+  const auto across = [&](std::size_t i) { return along == Along::X ? *corners[i].z : *corners[i].x; };
+  const std::size_t last = corners.size() - 1;
+  return across(last) == across(last - 1) && across(last - 1) == across(last - 2);
+}
+
 /// Nothing but moves: codes of the spindle, tools or stops say that the sequence numbers are those of something else.
 bool isPlain(const Contour &contour, const FileContext &context) {
   for (BlockId block = contour.first; block <= contour.last; block = block.next())
@@ -69,9 +76,10 @@ void judge(const Contour &contour, const TurningPoint &start, const TurningWalk 
   for (const Along along : {Along::X, Along::Z}) {
     const bool isAcross = (along == Along::X) != isFacing; // the direction of the infeed
     const auto turn = isPocket && isAcross ? std::nullopt : turnOf(corners, along);
-    // The last block may go back to the start at rapid, where the compensation ends.
+    // The last block may go back to the start at rapid, where the compensation ends; not along what was just cut.
     if (!turn ||
-        (blocks[*turn] == contour.last && findAction(context.tree, contour.last, context.dialect, {CodeAction::Rapid})))
+        (blocks[*turn] == contour.last &&
+         findAction(context.tree, contour.last, context.dialect, {CodeAction::Rapid}) && !dragsBack(corners, along)))
       continue;
     reporter.report(
         {.message = fmt::format("the contour of {} turns back in {} here", context.quoted(word->span()),

@@ -13,6 +13,9 @@ bool does(const Code *code, std::initializer_list<CodeAction> actions) {
   return code && std::ranges::find(actions, code->action) != actions.end();
 }
 
+/// Programs that speak of G95 write the limit of code system A all the same.
+bool isLimitOfSystemA(const Word &word) { return word.address() == 'G' && word.isNumber() && word.tenths() == 500; }
+
 /// Follows G96, M03 and the limit through the text of one program.
 class Reader {
 public:
@@ -28,7 +31,7 @@ public:
     const Word *speed = nullptr;
     for (const Word &word : context_.tree.wordsOf(block)) {
       const Code *code = word.isCode() ? codeOf(word, context_.dialect) : nullptr;
-      if (does(code, {CodeAction::CoordinateSet}))
+      if (does(code, {CodeAction::CoordinateSet}) || isLimitOfSystemA(word))
         limit = &word;
       if (word.address() == 'S')
         speed = &word;

@@ -3,6 +3,7 @@
 
 #include "rules/motion/behind_calls.h"
 #include "rules/motion/folder_programs.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,10 @@ std::vector<NodeId> switchingNodes(const LeftOn &mode, const MotionView &view, c
 /// that could not be read.
 bool mayPutRightUnseen(const MotionView &view, NodeId node) {
   const Instruction &instruction = view.node(node).instruction;
+  const BlockId block = view.node(node).block;
+  const bool isBroken = view.context().tree.blocks[block].has(Block::kBroken);
+  if (std::holds_alternative<Havoc>(instruction) && isBroken && !mayHoldCode(view.context(), block, "GMOT"))
+    return false;
   if (std::holds_alternative<CallProgram>(instruction) || std::holds_alternative<Havoc>(instruction))
     return true;
   return std::ranges::any_of(
@@ -91,6 +96,14 @@ bool isCancelledElsewhere(const LeftOn &mode, const FileContext &context) {
   });
 }
 
+/// A text without a number that stops without M30: what comes behind it is not known.
+bool isOfFragment(const ExitFact &exit, const MotionView &view) {
+  const FileContext &context = view.context();
+  return exit.end == PathEnd::Ends && !isNamed(context.model.programs[view.program()]) &&
+         !findCode(context.tree, view.node(exit.node).block, context.dialect, CodeRole::ProgramEnd) &&
+         !context.dialect.grammar.oWords;
+}
+
 /// Only M97 leads to this return: those who call the program do not see it.
 bool isOfLocalCall(const ExitFact &exit, const FlowFacts &facts) {
   return exit.end == PathEnd::Returns && !findPath(facts, facts.entry(), exit.node, [](NodeId) { return false; });
@@ -145,6 +158,8 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   const bool isForgotten = mode.followsHabit && isCancelledElsewhere(mode, context);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {
+    if (isOfFragment(exit, view))
+      continue;
     const auto severity = leaves(exit, mode, view) ? severityAt(exit, mode, callers) : std::nullopt;
     const bool isKept = callers.behindLocal == BehindCalls::PutRight && isOfLocalCall(exit, facts);
     if (!severity || isKept || (isRestored && exit.end == PathEnd::Returns))

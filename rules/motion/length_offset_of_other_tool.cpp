@@ -1,5 +1,6 @@
 // length-offset-of-other-tool: `T2 M06`, then `G43 H1` or `G41 D1`.
 #include "rules/motion/folder_programs.h"
+#include "rules/structure/structure_view.h"
 
 #include "base/support/text.h"
 
@@ -40,11 +41,13 @@ bool hasAction(const FileContext &context, BlockId block, std::initializer_list<
 /// another way that leads here.
 bool hidesTool(const FileContext &context, BlockId block, const std::set<BlockId> &targets) {
   const Block &its = context.tree.blocks[block];
-  if (its.has(Block::kSkip) || its.has(Block::kSkipInside) || its.has(Block::kBroken) || targets.contains(block) ||
+  if (its.has(Block::kSkip) || its.has(Block::kSkipInside) ||
+      (its.has(Block::kBroken) && mayHoldCode(context, block, "TMO")) || targets.contains(block) ||
       !context.model.callsIn(block, block.next()).empty())
     return true;
   return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
-    return word.isCode() && (word.has(Word::kAfterThen) || !codeOf(word, context.dialect));
+    const bool isRead = word.isNumber() || !its.has(Block::kBroken);
+    return word.isCode() && (word.has(Word::kAfterThen) || (isRead && !codeOf(word, context.dialect)));
   });
 }
 
@@ -191,6 +194,13 @@ void checkRadius(const Section &section, const std::set<std::uint32_t> &tools, c
                  fmt::format("write `D{}` if tool {} is meant", section.tool, section.tool)}});
 }
 
+/// All tools have their own H, and one of them has a D: by the same count.
+bool hasLoneRadius(const std::vector<Section> &sections) {
+  const auto hasRadius = [](const Section &section) { return !section.radii.empty(); };
+  return sections.size() > 1 && std::ranges::all_of(sections, agrees) &&
+         std::ranges::count_if(sections, hasRadius) == 1;
+}
+
 /// A lathe, whatever the dialect: the offsets of turrets have numbers of their own.
 bool turns(ProgramId program, const FileContext &context) {
   const Program &its = context.model.programs[program];
@@ -265,7 +275,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     else if (differs(section))
       odd.insert(section.tool);
   }
-  const bool countsRadii = std::ranges::any_of(sections, &Section::radiusAgrees);
+  const bool countsRadii = std::ranges::any_of(sections, &Section::radiusAgrees) || hasLoneRadius(sections);
   const bool isLone = isLoneMismatch(sections, program, context); // without a habit to compare it with
   for (const Section &section : sections) {
     const bool isHabit = section.radiusAgrees || isLone || (!paired.empty() && odd.size() <= paired.size());

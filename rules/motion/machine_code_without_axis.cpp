@@ -31,12 +31,37 @@ std::optional<BlockId> moveBehind(BlockId block, const FileContext &context) {
   return std::nullopt;
 }
 
+/// Nothing but M codes up to M30 or M02: the block was to take the tool away.
+bool endsBehind(BlockId block, const FileContext &context) {
+  const Program &program = context.model.programs[context.model.programOf(block)];
+  for (BlockId each = block; each < program.last; each = each.next()) {
+    const auto words = context.tree.wordsOf(each);
+    if (!context.tree.statementsOf(each).empty() || context.tree.blocks[each].has(Block::kBroken) ||
+        (each != block &&
+         std::ranges::any_of(words, [](const Word &word) { return word.address() != 'M' && word.address() != 'N'; })))
+      return false;
+    if (findCode(context.tree, each, context.dialect, CodeRole::ProgramEnd))
+      return true;
+  }
+  return false;
+}
+
+void tellAtEnd(const Word &code, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("{} has no axis beside it, and no effect", context.quoted(code.span())),
+                   .span = code.span(),
+                   .notes = {"no axis moves before the program ends: the tool stays where the last block left it",
+                             "write the axis and where it goes, such as `G53 Z0`"}});
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const Word *code = findAction(context.tree, block, context.dialect, {CodeAction::MachineMove});
-  // Without a motion code it is a habit: such a block keeps FANUC controls from reading ahead.
-  if (!code || !findAction(context.tree, block, context.dialect, {CodeAction::Rapid, CodeAction::Linear}) ||
-      context.tree.blocks[block].has(Block::kBroken) || namesAxis(block, context) ||
+  if (!code || context.tree.blocks[block].has(Block::kBroken) || namesAxis(block, context) ||
       !context.model.callsIn(block, block.next()).empty())
+    return;
+  if (endsBehind(block, context))
+    return tellAtEnd(*code, context, reporter);
+  // Without a motion code it is a habit: such a block keeps FANUC controls from reading ahead.
+  if (!findAction(context.tree, block, context.dialect, {CodeAction::Rapid, CodeAction::Linear}))
     return;
   const auto move = moveBehind(block, context);
   if (!move)
@@ -51,8 +76,9 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 } // namespace
 
 extern const Rule machineCodeWithoutAxis;
-const Rule machineCodeWithoutAxis{.info = {"machine-code-without-axis", Category::Motion, Severity::Warning,
-                                           "Reports `G00 G53` in a block that moves no axis."},
-                                  .hooks = {.block = check}};
+const Rule machineCodeWithoutAxis{
+    .info = {"machine-code-without-axis", Category::Motion, Severity::Warning,
+             "Reports `G00 G53` in a block that moves no axis, and `G53` alone before the end of the program."},
+    .hooks = {.block = check}};
 
 } // namespace feedhold::rules::machine_code_without_axis

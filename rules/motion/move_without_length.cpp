@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace feedhold::rules::move_without_length {
 namespace {
@@ -12,10 +13,18 @@ class MoveWithoutLength final : public FlowRule {
 public:
   MoveWithoutLength(ProgramId program, const FileContext &context) : view_(program, context) {}
 
+  void before(NodeId node, const AbstractState &state) override {
+    if (view_.mayHave(node, 'Z'))
+      hadLength_ = !isHavocked(state) &&
+                   view_.wasSet(state, ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus}) &&
+                   view_.surely(state, ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus});
+  }
   void after(NodeId node, const AbstractState &state) override {
-    if (!view_.mayHave(node, 'Z') || isHavocked(state) || !zWord(node) || view_.sets(node, ModalKind::Length) ||
+    if (!view_.mayHave(node, 'Z') || isHavocked(state) || !zWord(node) ||
         view_.findAction(node, {CodeAction::ToolChange}))
       return;
+    if (view_.sets(node, ModalKind::Length))
+      return noteOff(node, state);
     if (view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) &&
         view_.surely(state, ModalKind::Length, {CodeAction::LengthOff}) &&
         view_.wasSet(state, ModalKind::Length, {CodeAction::LengthOff}))
@@ -24,8 +33,11 @@ public:
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     // Hobby machines have G49 in each preamble, and tools without lengths.
-    if (moves_.empty() || context.dialect.behaviour.endRestoresModes ||
-        (!usesLengthOffset(facts) && !isCalled(facts, context)))
+    if (context.dialect.behaviour.endRestoresModes)
+      return;
+    for (const NodeId node : offs_)
+      tellOff(node, context, reporter);
+    if (moves_.empty() || (!usesLengthOffset(facts) && !isCalled(facts, context)))
       return;
     std::ranges::sort(moves_);
     for (NodeId off = facts.entry(); off < facts.end(); off = off.next())
@@ -34,6 +46,19 @@ public:
   }
 
 private:
+  /// `G49 Z100.` while a length is in force: the block moves to its Z without it.
+  void noteOff(NodeId node, const AbstractState &state) {
+    if (view_.findAction(node, {CodeAction::LengthOff}) &&
+        view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) && hadLength_ && isNear(node, state))
+      offs_.insert(node);
+  }
+  /// Nearer to the part than most tools are long: a height far above it keeps them clear, too.
+  bool isNear(NodeId node, const AbstractState &state) const {
+    constexpr double kLong = 150; // mm
+    const Word &word = *zWord(node);
+    const double unit = view_.wasSet(state, ModalKind::Units, {CodeAction::Inch}) ? 25.4 : 1;
+    return word.isNumber() && word.number().toDouble() * unit < kLong;
+  }
   const Word *zWord(NodeId node) const {
     for (const Word *word : view_.modalMotionWords(node))
       if (word->address() == 'Z')
@@ -49,6 +74,14 @@ private:
       if (facts.isReached(node) && view_.findAction(node, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
         return true;
     return false;
+  }
+  void tellOff(NodeId node, const FileContext &context, const Reporter &reporter) const {
+    reporter.report(
+        {.message = fmt::format("{} moves the tool without its length", context.quoted(zWord(node)->span())),
+         .span = zWord(node)->span(),
+         .labels = {{view_.findAction(node, {CodeAction::LengthOff})->span(), "the length offset ends in this block"}},
+         .notes = {"the spindle nose goes to this height, and the tool is below it by its length",
+                   "retract before `G49`, or by `G53` or `G28`; approach with `G43` and H"}});
   }
   void tell(NodeId off, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
     const auto isOver = [&](NodeId node) {
@@ -69,6 +102,8 @@ private:
   MotionView view_;
   std::vector<NodeId> moves_;
   std::optional<NodeId> told_;
+  bool hadLength_ = false; // before the node
+  std::set<NodeId> offs_;  // G49 beside a Z
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -32,6 +32,8 @@ public:
       return;
     }
     const auto words = view_.modalMotionWords(node);
+    if (view_.mayHave(node, 'M')) // M05, M19: a boring bar is moved off its bore
+      plunged_.reset();
     if (words.empty())
       return afterNoMove(node);
     const auto depth = std::ranges::find(words, 'Z', [](const Word *word) { return word->address(); });
@@ -56,6 +58,16 @@ public:
   }
 
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[rapid, plunge] : behindPlunge_) {
+      const Word &first = *view_.modalMotionWords(rapid).front();
+      if (!found_.contains(rapid))
+        reporter.report({.message = fmt::format("{} moves at rapid right behind the plunge, at the depth of the cut",
+                                                context.quoted(first.span())),
+                         .span = first.span(),
+                         .labels = {{view_.modalMotionWords(plunge).front()->span(), "the plunge"}},
+                         .notes = {"the tool goes through the part at rapid",
+                                   "retract in Z before this block, or write `G01` and F for the cut"}});
+    }
     for (const auto &[rapid, plunge] : found_) {
       const Word &first = *view_.modalMotionWords(rapid).front();
       const Word &level = *view_.modalMotionWords(plunge.node).front();
@@ -71,10 +83,12 @@ public:
 private:
   void forget() {
     forgetDepth();
+    level_.reset();
     place_.clear();
   }
   void forgetDepth() {
     depth_.reset();
+    plunged_.reset();
     rapid_.reset();
   }
   void goTo(const std::vector<const Word *> &words) {
@@ -105,14 +119,24 @@ private:
       forgetDepth();
   }
   void afterRapid(NodeId node, const Word *level) {
-    if (level)
+    if (level) {
+      level_ = level->number();
       return forgetDepth();
+    }
+    if (plunged_)
+      behindPlunge_.emplace(node, *plunged_);
+    plunged_.reset();
     rapid_ = depth_ ? std::optional(node) : std::nullopt;
   }
   void afterFeed(NodeId node, const Word *level, bool isAlone) {
     if (rapid_ && level && isAlone && (isIncremental_ ? level->number().isNegative() : level->number() == *depth_))
       found_.emplace(*rapid_, Plunge{node, isIncremental_});
     rapid_.reset();
+    plunged_.reset();
+    if (level && isAlone && !isIncremental_ && level->number().isNegative() && level_ && level->number() < *level_)
+      plunged_ = node;
+    if (level)
+      level_ = level->number();
     if (level)
       depth_ = level->number().isNegative() ? std::optional(level->number()) : std::nullopt;
   }
@@ -130,7 +154,10 @@ private:
   MotionView view_;
   bool asked_;
   bool isIncremental_ = false;
+  std::optional<Decimal> level_; // the last Z
   NodeId next_{0};
+  std::optional<NodeId> plunged_; // the last move: fed down from above the part
+  std::map<NodeId, NodeId> behindPlunge_;
   std::optional<Decimal> depth_;  // to which, or by which, the tool was fed, and where it is
   std::optional<NodeId> rapid_;   // the last block, at that depth
   std::map<char, Decimal> place_; // coordinates of the last blocks, by axis

@@ -60,15 +60,18 @@ private:
 
   void tell(const Word &word, double x, double z, const Reporter &reporter) const {
     const bool isBeside = z < 0;
+    const bool isAtFace = !isBeside && z <= (walk_.isMetric() ? 0.5 : 0.02);
     reporter.report(
         {.message = fmt::format("{} turns the turret at X{:g} Z{:g}, {} the part", context_.quoted(word.span()), x, z,
-                                isBeside ? "beside" : "right in front of"),
+                                isBeside   ? "beside"
+                                : isAtFace ? "on the face of"
+                                           : "right in front of"),
          .span = word.span(),
          .labels = {{cut_->span(), "the last cut"}},
          .notes = {isBeside ? "the tools that swing past hit the part or the chuck"
                             : "a tool that is longer than this one hits the face when it swings in",
                    "retract first, by `G28 U0 W0` or to a safe X and Z"}},
-        isBeside ? Severity::Warning : Severity::Info);
+        isBeside || isAtFace ? Severity::Warning : Severity::Info);
   }
 
   const FileContext &context_;

@@ -16,6 +16,9 @@ struct ToolSection {
 /// In order of the text; what stands before the first tool change is in none.
 std::vector<ToolSection> toolSectionsOf(ProgramId program, const FileContext &context);
 
+/// The block could not be read to its end, and behind its last word only prose stands: `X1. next pass`.
+bool endsInProse(const FileContext &context, BlockId block);
+
 /// Blocks of a program that are not executed each time as they stand, or that execute more than they show.
 class HiddenWork {
 public:

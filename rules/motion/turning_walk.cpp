@@ -80,6 +80,8 @@ bool TurningWalk::follow(const Word &word) {
     return word.address() == 'M' && word.isNumber() && word.tenths().value_or(1000) < 1000;
   if (code->action == CodeAction::Absolute || code->action == CodeAction::Incremental)
     isIncremental_ = code->action == CodeAction::Incremental;
+  if (code->action == CodeAction::DiameterCycle) // `G90` of code system A, in a program that also has G91
+    isIncremental_ = false;
   if (code->action == CodeAction::Metric || code->action == CodeAction::Inch)
     isMetric_ = code->action == CodeAction::Metric;
   const auto move = moveOf(code->action);
@@ -113,6 +115,12 @@ TurningMove TurningWalk::read(BlockId block) {
     return TurningMove::None;
   moveTo(block, at_);
   return motion_;
+}
+
+TurningPoint TurningWalk::endOf(BlockId block) const {
+  TurningPoint point = at_;
+  moveTo(block, point);
+  return point;
 }
 
 std::vector<TurningPoint> TurningWalk::cornersOf(const Contour &contour, const TurningPoint &start) const {

@@ -35,6 +35,8 @@ public:
   /// Behind the last block that was read.
   const TurningPoint &at() const { return at_; }
   bool isMetric() const { return isMetric_; }
+  /// Where the words of the block lead from there; of a cycle, its end point.
+  TurningPoint endOf(BlockId block) const;
   /// Block by block, from a start: the corner points of a contour; empty where one of them is not known.
   std::vector<TurningPoint> cornersOf(const Contour &contour, const TurningPoint &start) const;
   const std::vector<Contour> &contours() const { return contours_; }

@@ -1,5 +1,5 @@
 // contour-without-end: `G71 P10`, and the Q is missing or stands in the next block.
-#include "findings/rule/rule.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,18 @@
 
 namespace feedhold::rules::contour_without_end {
 namespace {
+
+/// The Q of the block behind the cycle.
+const Word *endBehind(BlockId block, const FileContext &context) {
+  const BlockId next = block.next();
+  const Word *last = next.index() < context.tree.blockCount() ? findWord(context.tree, next, 'Q') : nullptr;
+  return last && last->isNumber() && !findWord(context.tree, next, 'G') ? last : nullptr;
+}
+
+bool hasSequenceNumber(std::uint32_t number, BlockId block, const FileContext &context) {
+  const auto numbers = sortedSequenceNumbers(context.model, context.model.programOf(block));
+  return std::ranges::any_of(numbers, [&](const SequenceNumber &each) { return each.number == number; });
+}
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning || context.tree.blocks[block].has(Block::kBroken))
@@ -20,10 +32,14 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
                              context.quoted(cycle->span())),
       .span = first->span(),
       .notes = {"the control does not know where the contour ends, and stops", "write P and Q in one block"}};
-  const BlockId next = block.next();
-  if (next.index() < context.tree.blockCount())
-    if (const Word *last = findWord(context.tree, next, 'Q'))
-      diagnostic.labels = {{last->span(), "in a block of its own, it belongs to no cycle"}};
+  if (const Word *last = endBehind(block, context)) {
+    diagnostic.labels = {{last->span(), "in a block of its own, it belongs to no cycle"}};
+    const auto number = last->integer();
+    if (number && !hasSequenceNumber(*number, block, context))
+      diagnostic.notes.push_back(
+          fmt::format("and this program has no `N{}`: give {} the number of the last block of the contour", *number,
+                      context.quoted(last->span())));
+  }
   reporter.report(std::move(diagnostic));
 }
 

@@ -157,6 +157,25 @@ std::vector<const Loop *> LoopNest::around(BlockId block) const {
   return found;
 }
 
+bool mayHoldCode(const FileContext &context, BlockId block, std::string_view letters) {
+  const Block &its = context.tree.blocks[block];
+  const auto isRemark = [&](std::uint32_t at) {
+    return std::ranges::any_of(context.tree.commentsOf(block), [&](const Comment &comment) {
+      return comment.span.begin <= at && at < comment.span.end;
+    });
+  };
+  bool isLetter = false; // one of them, and only blanks behind it
+  for (std::uint32_t at = its.begin; at < its.end; ++at) {
+    const char c = toUpper(context.text({at, at + 1}).front());
+    if (isBlank(c) || isRemark(at))
+      continue;
+    if (isLetter && isDigit(c))
+      return true;
+    isLetter = letters.find(c) != std::string_view::npos;
+  }
+  return false;
+}
+
 std::vector<Contour> contoursOf(ProgramId program, const FileContext &context) {
   std::vector<Contour> contours;
   const auto jumps = context.model.jumpsOf(program);

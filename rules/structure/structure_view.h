@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace feedhold::rules {
@@ -21,6 +22,10 @@ bool isStructureBroken(const FileContext &context, ProgramId program);
 
 /// The last block with content of a program, when control can reach it and go on behind it.
 std::optional<BlockId> openEnd(const FileContext &context, ProgramId program);
+
+/// The text of a block, its comments apart, has one of the letters with a digit behind it: of a block that could not be
+/// read, whether it may have been meant to hold such a code.
+bool mayHoldCode(const FileContext &context, BlockId block, std::string_view letters);
 
 /// The block is in the body of the loop, its END included; false for a loop without END.
 bool isInside(const Loop &loop, BlockId block);

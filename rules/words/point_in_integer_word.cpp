@@ -39,6 +39,15 @@ bool isBesideCall(const Word &word, const FileContext &context, BlockId block) {
                              [](const Call &call) { return call.kind == CallKind::Subprogram; });
 }
 
+/// The block goes on with a cycle that stands in the block before it without all of its words, and that is reported.
+bool continuesCycle(const FileContext &context, BlockId block) {
+  if (block.index() == 0 || findWord(context.tree, block, 'G') || findWord(context.tree, block, 'M'))
+    return false;
+  const BlockId before(block.index() - 1);
+  const Word *cycle = findCode(context.tree, before, context.dialect, CodeRole::Contour);
+  return cycle && findWord(context.tree, before, 'P') && !findWord(context.tree, before, 'Q');
+}
+
 /// Another word of the block makes arguments of its words, or `G66.1` those of every block.
 bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) {
   for (const Word &other : context.tree.wordsOf(block))
@@ -65,7 +74,7 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   const AddressFormat &format = formatOf(context.dialect, word.address());
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
       format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block) ||
-      isMoveOfC(word, context, block))
+      isMoveOfC(word, context, block) || continuesCycle(context, block))
     return;
   if (mistypedDigitsAt(word.span().begin, context))
     return reportDigits(word, context, reporter);

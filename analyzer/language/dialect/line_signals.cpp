@@ -289,6 +289,9 @@ void LineScanner::scanEquals(char letter) {
   ++at_;
 }
 
+/// `T0303`, the turret and its offset: no mill numbers its tools so.
+bool isPair(std::uint32_t tool) { return tool / 100 == tool % 100; }
+
 void LineScanner::scanNumberedWord(char letter, const Number &number) {
   const std::size_t after = at_;
   skipBlanks();
@@ -331,7 +334,8 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
   case 'L': hasSubprogramL_ = !number.hasFraction && number.digits >= 3 && line_[after - 1] != '.'; return;
   case 'T':
     if (number.digits == 4 || (number.digits == 3 && number.whole / 100 == number.whole % 100))
-      count(TextSignal::TurretTool);
+      for (int times = number.digits == 4 && isPair(number.whole) ? 3 : 1; times > 0; --times)
+        count(TextSignal::TurretTool);
     else if (number.hasFraction && !hasG65_)
       count(TextSignal::FagorTool);
     else
