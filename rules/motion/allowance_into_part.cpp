@@ -1,5 +1,5 @@
 // allowance-into-part: `G71 P10 Q20 U0.4 W0.1` in a bore: the allowance lies in the part, and roughing cuts too deep.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -78,15 +78,6 @@ private:
   TurningWalk walk_;
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule allowanceIntoPart;
@@ -94,6 +85,6 @@ const Rule allowanceIntoPart{
     .info = {"allowance-into-part", Category::Motion, Severity::Warning,
              "Reports a roughing cycle of a lathe whose `U` or `W` leaves the finishing allowance on the wrong side of "
              "the contour."},
-    .hooks = {.program = check}};
+    .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::allowance_into_part

@@ -1,5 +1,5 @@
 // ends-in-cut: `G01 X0. F.08`, and `M30`: the tool stays in the part.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -56,21 +56,12 @@ private:
   double reach_ = 0;
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule endsInCut;
 const Rule endsInCut{.info = {"ends-in-cut", Category::Motion, Severity::Warning,
                               "Reports a program of a lathe that ends with the tool where its last cut has led it, "
                               "below the face of the part."},
-                     .hooks = {.program = check}};
+                     .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::ends_in_cut

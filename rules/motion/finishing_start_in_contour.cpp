@@ -1,5 +1,5 @@
 // finishing-start-in-contour: `G70` from X35 of a contour that ends at X85: the way back leads through the part.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -101,21 +101,12 @@ private:
   std::vector<Roughed> roughed_;
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule finishingStartInContour;
 const Rule finishingStartInContour{
     .info = {"finishing-start-in-contour", Category::Motion, Severity::Warning,
              "Reports a finishing cycle of a lathe whose rapid return to its start leads through the part."},
-    .hooks = {.program = check}};
+    .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::finishing_start_in_contour

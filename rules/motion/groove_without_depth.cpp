@@ -1,5 +1,5 @@
 // groove-without-depth: from X32. Z-15. a `G74 X28. Z-15.`, which pecks along Z.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -42,15 +42,9 @@ void checkCycle(BlockId block, const TurningPoint &start, const TurningWalk &wal
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  TurningWalk walk(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next()) {
-    const TurningPoint start = walk.at();
-    if (walk.read(block) == TurningMove::Cycle)
-      checkCycle(block, start, walk, context, reporter);
-  }
+  forEachTurningCycle(program, context, [&](BlockId block, const TurningPoint &start, const TurningWalk &walk) {
+    checkCycle(block, start, walk, context, reporter);
+  });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // late-speed-limit: `G96 S660 M03`, and `G50 S1000` only behind it.
 #include "rules/motion/tool_sections.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -86,21 +87,12 @@ private:
   bool isLimited_ = false;        // or it is not known
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule lateSpeedLimit;
 const Rule lateSpeedLimit{.info = {"late-speed-limit", Category::Motion, Severity::Warning,
                                    "Reports a speed limit that comes only after constant surface speed and the start "
                                    "of the spindle."},
-                          .hooks = {.program = check}};
+                          .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::late_speed_limit

@@ -1,5 +1,5 @@
 // nose-compensation-on-other-side: `G41`, a cut along -Z, and a rapid move away from the centre: an outside diameter.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -103,21 +103,12 @@ private:
   const Word *told_ = nullptr;
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule noseCompensationOnOtherSide;
 const Rule noseCompensationOnOtherSide{
     .info = {"nose-compensation-on-other-side", Category::Motion, Severity::Warning,
              "Reports `G41` on an outside diameter and `G42` in a bore of a lathe, cut towards the chuck."},
-    .hooks = {.program = check}};
+    .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::nose_compensation_on_other_side

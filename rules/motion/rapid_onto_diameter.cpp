@@ -1,6 +1,6 @@
 // rapid-onto-diameter: `G01 X45. Z-54.`, the next tool, and `G00 X45. Z-8.`: it arrives on the surface at rapid.
 #include "rules/comments/remarks_of_block.h"
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -119,21 +119,12 @@ private:
   std::optional<std::size_t> told_; // for this tool
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule rapidOntoDiameter;
 const Rule rapidOntoDiameter{.info = {"rapid-onto-diameter", Category::Motion, Severity::Warning,
                                       "Reports a rapid move of a lathe that ends on a diameter which an earlier tool "
                                       "has turned."},
-                             .hooks = {.program = check}};
+                             .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::rapid_onto_diameter

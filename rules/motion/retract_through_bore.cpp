@@ -1,6 +1,6 @@
 // retract-through-bore: `T0303 (BORING BAR)`, `G01 X46. Z-42.`, and `G00 X50.`: out through the wall of the bore.
 #include "rules/comments/remarks_of_block.h"
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -48,21 +48,12 @@ private:
   const Block *cut_ = nullptr; // the last move, along the bore
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule retractThroughBore;
 const Rule retractThroughBore{.info = {"retract-through-bore", Category::Motion, Severity::Warning,
                                        "Reports a boring bar of a lathe, called so by the remark of its T word, that "
                                        "leaves the bottom of the bore outwards at rapid."},
-                              .hooks = {.program = check}};
+                              .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::retract_through_bore

@@ -1,5 +1,5 @@
 // tool-change-at-part: `G01 Z-40.`, `G00 X82.`, `T0404`: the turret turns beside the part.
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -81,21 +81,12 @@ private:
   double reach_ = 0;                  // the largest X at which the program cuts
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule toolChangeAtPart;
 const Rule toolChangeAtPart{.info = {"tool-change-at-part", Category::Motion, Severity::Warning,
                                      "Reports a `T` of a lathe that turns the turret while the tool is beside the part "
                                      "or right in front of it."},
-                            .hooks = {.program = check}};
+                            .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::tool_change_at_part

@@ -1,6 +1,6 @@
 // tool-without-cut: `T0202 (FINISHING)`, `G00 X30. Z2.`, and the turret turns on: the cut is missing.
 #include "rules/comments/remarks_of_block.h"
-#include "rules/motion/turning_walk.h"
+#include "rules/motion/turning_program.h"
 
 #include <fmt/format.h>
 
@@ -93,21 +93,12 @@ private:
   Section section_;
 };
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block, reporter);
-}
-
 } // namespace
 
 extern const Rule toolWithoutCut;
 const Rule toolWithoutCut{.info = {"tool-without-cut", Category::Motion, Severity::Warning,
                                    "Reports a tool of a lathe that is called and positioned, and cuts nothing before "
                                    "the next one."},
-                          .hooks = {.program = check}};
+                          .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::tool_without_cut

@@ -51,8 +51,7 @@ public:
   }
 
   ProgramProof run() {
-    if (!subject_.contract())
-      settleQuickly(*stage_);
+    settleQuickly(*stage_);
     settleStage(*stage_);
     if (auto guarded = guardedRow(contextOf(*stage_))) // of other calls, which are explored apart
       stage_->settled.rows.push_back(*std::move(guarded));
