@@ -65,7 +65,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!range || range->kind != VariableKind::System)
       continue;
     for (const ExitFact &exit : facts.exits()) {
-      if (!isLeftOn(exit, which.variable))
+      if (!isLeftOn(exit, which.variable) || isOfLocalCall(exit, facts))
         continue;
       const VariableUse *use = writeBefore(exit, which.variable, facts, context);
       if (!use)

@@ -27,6 +27,8 @@ public:
     for (const auto &[node, always] : places_) {
       const Word &word = *view_.modalMotionWords(node).front();
       const auto arc = arcBefore(node, facts);
+      if (!always && !arc && readsContour(facts, context))
+        continue; // of an arc within the contour, which ends otherwise
       reporter.report(
           {.message = fmt::format("`G02` or `G03` is still active at {}{}, but the block has neither `R` nor `I J K`",
                                   context.quoted(word.span()), always ? "" : " on some path"),
@@ -50,6 +52,14 @@ private:
     return std::ranges::none_of(words, [](const Word *word) {
       return std::string_view("IJKR").find(word->address()) != std::string_view::npos;
     });
+  }
+  /// Behind a cycle any code of its contour may be in force, as far as the analysis knows.
+  static bool readsContour(const FlowFacts &facts, const FileContext &context) {
+    const Program &program = context.model.programs[facts.program];
+    for (BlockId block = program.first; block < program.last; block = block.next())
+      if (findCode(context.tree, block, context.dialect, CodeRole::Contour))
+        return true;
+    return false;
   }
   struct ArcBefore {
     Label label;

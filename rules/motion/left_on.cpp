@@ -104,11 +104,6 @@ bool isOfFragment(const ExitFact &exit, const MotionView &view) {
          !context.dialect.grammar.oWords;
 }
 
-/// Only M97 leads to this return: those who call the program do not see it.
-bool isOfLocalCall(const ExitFact &exit, const FlowFacts &facts) {
-  return exit.end == PathEnd::Returns && !findPath(facts, facts.entry(), exit.node, [](NodeId) { return false; });
-}
-
 /// How much it matters; absent: it is as it should be.
 std::optional<Severity> severityAt(const ExitFact &exit, const LeftOn &mode, const CallersOfMode &callers) {
   if (exit.end == PathEnd::Ends)

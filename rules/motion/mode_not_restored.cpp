@@ -38,7 +38,7 @@ const Word *saveWithoutRestore(const FlowFacts &facts, const FileContext &contex
 /// Returns in other modes than those of the call; which move was made last does not count.
 bool changesModes(const ExitFact &exit, const FlowFacts &facts) {
   const auto motion = facts.modes.groupOf(ModalKind::Motion);
-  if (exit.end != PathEnd::Returns || isHavocked(exit.state))
+  if (exit.end != PathEnd::Returns || isHavocked(exit.state) || isOfLocalCall(exit, facts))
     return false;
   for (std::size_t group = 1; group < kModalGroups; ++group)
     if (group != motion && !leq(exit.state.codes[group], facts.entryCodes()[group]))
@@ -66,7 +66,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   for (const Saving &saving : savings)
     for (const ExitFact &exit : facts.exits()) {
       if (exit.end != PathEnd::Returns || isHavocked(exit.state) ||
-          leq(exit.state.codes[saving.group], facts.entryCodes()[saving.group]))
+          leq(exit.state.codes[saving.group], facts.entryCodes()[saving.group]) || isOfLocalCall(exit, facts))
         continue;
       const auto change = changeBefore(exit, saving, view, facts);
       if (!change)

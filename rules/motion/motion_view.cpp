@@ -76,6 +76,10 @@ bool comesToItsEnd(const FlowFacts &facts) {
   });
 }
 
+bool isOfLocalCall(const ExitFact &exit, const FlowFacts &facts) {
+  return exit.end == PathEnd::Returns && !findPath(facts, facts.entry(), exit.node, [](NodeId) { return false; });
+}
+
 MotionView::MotionView(ProgramId program, const FileContext &context)
     : context_(context), program_(program), cfg_(context.programs->file(context.file).cfg),
       modes_(context.modes ? context.modes : std::make_shared<const ModalTable>(context.dialect)) {}

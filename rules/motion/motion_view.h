@@ -15,6 +15,8 @@ StartedBy startedBy(const FileContext &context, ProgramId program);
 
 /// By M02, M30 or M99: the text is no piece of a program.
 bool comesToItsEnd(const FlowFacts &facts);
+/// Only M97 leads to this return: those who call the program do not see it.
+bool isOfLocalCall(const ExitFact &exit, const FlowFacts &facts);
 
 class MotionView {
 public:

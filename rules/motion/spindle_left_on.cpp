@@ -61,7 +61,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   std::vector<const ExitFact *> running;
   std::vector<const ExitFact *> stopped;
   for (const ExitFact &exit : facts.exits()) {
-    if (exit.end != PathEnd::Returns)
+    if (exit.end != PathEnd::Returns || isOfLocalCall(exit, facts))
       continue;
     if (isStopped(exit))
       stopped.push_back(&exit);

@@ -15,6 +15,9 @@ public:
     if (hidden_.isIn(block) || meansOwnWords(context_.tree, block, context_.dialect))
       return lose();
     const Word *thread = threadIn(block);
+    if (thread && !findWord(context_.tree, block, 'F') && isSetting(*thread))
+      thread = nullptr;
+    hasStarted_ = hasStarted_ || starts(block);
     const Word *feed = findWord(context_.tree, block, 'F');
     noteMotion(block, thread);
     if (feed) {
@@ -28,8 +31,17 @@ public:
   }
 
 private:
+  /// `G92 X200. Z220.` at the head, before the first move and before the spindle starts: where the tool is.
+  bool isSetting(const Word &thread) const { return !hasStarted_ && thread.integer() == 92; }
+  bool starts(BlockId block) const {
+    return findWord(context_.tree, block, 'S') || findWord(context_.tree, block, 'T') ||
+           findWord(context_.tree, block, 'F') || findCode(context_.tree, block, context_.dialect, CodeRole::Motion) ||
+           findAction(context_.tree, block, context_.dialect,
+                      {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise});
+  }
   void lose() {
     isKnown_ = false;
+    hasStarted_ = true;
     feed_ = nullptr;
   }
   const Word *threadIn(BlockId block) const {
@@ -66,6 +78,7 @@ private:
   const FileContext &context_;
   HiddenWork hidden_;
   const Word *feed_ = nullptr; // the last one
+  bool hasStarted_ = false;    // a tool, the spindle or a move stands above
   bool isKnown_ = true;        // which F is the last one, or that there is none
   bool isLead_ = false;        // it was written for a thread
   bool isThreading_ = false;   // the code of motion in force cuts a thread

@@ -48,7 +48,31 @@ bool isForLaterBlocks(const FileContext &context, BlockId block) {
   return true;
 }
 
+/// `G02 R.5`: the arc ends where it begins.
+const Word *radiusAlone(const FileContext &context, BlockId block) {
+  const Block &its = context.tree.blocks[block];
+  const Word *radius = findWord(context.tree, block, 'R');
+  if (!radius || its.has(Block::kData) || its.has(Block::kBroken) || meansOwnWords(context, block))
+    return nullptr;
+  const Word *arc = findCode(context.tree, block, context.dialect, CodeRole::Arc);
+  const bool isAlone = std::ranges::all_of(context.tree.wordsOf(block), [&](const Word &word) {
+    const bool isCode = word.address() == 'G' && word.isCode();
+    const Code *code = isCode ? codeOf(word, context.dialect) : nullptr;
+    const bool isOther = isCode && &word != arc && (!code || code->role != CodeRole::Plain);
+    return (&word == radius || kBesideMotion.find(word.address()) != std::string_view::npos) && !isOther &&
+           !word.has(Word::kArgument) && !word.has(Word::kComma);
+  });
+  return arc && isAlone && !arc->has(Word::kAfterThen) ? radius : nullptr;
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (const Word *radius = radiusAlone(context, block)) {
+    reporter.report(
+        {.message = fmt::format("the arc with {} has no end point, so nothing moves", context.quoted(radius->span())),
+         .span = radius->span(),
+         .notes = {"a radius needs an end point: `X` and `Y`, or those of the plane in force"}});
+    return;
+  }
   const Word *arc = loneArc(context, block);
   if (!arc || isForLaterBlocks(context, block))
     return;
@@ -64,7 +88,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 extern const Rule loneArcCode;
 const Rule loneArcCode{.info = {"lone-arc-code", Category::Word, Severity::Warning,
                                 "Reports a `G02` or `G03` in a block without coordinates, when no arc follows for "
-                                "which it sets the mode."},
+                                "which it sets the mode, or when it has a radius."},
                        .hooks = {.block = check}};
 
 } // namespace feedhold::rules::lone_arc_code

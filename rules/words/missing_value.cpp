@@ -65,13 +65,24 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::NoDataAfterAddress))}});
 }
 
+/// `#1=.(SPEED)`: the number was never filled in.
+void checkLiteral(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  const Span span = context.tree.expressions[id].span;
+  if (context.text(span) == ".")
+    reporter.report({.message = "`.` is a number without a digit", .span = span, .notes = {"write the number"}},
+                    Severity::Warning);
+}
+
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MissingValue};
 
 } // namespace
 
 extern const Rule missingValue;
-const Rule missingValue{
-    .info = {"missing-value", Category::Word, Severity::Error, "Reports an address without a number."},
-    .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule missingValue{.info = {"missing-value", Category::Word, Severity::Error,
+                                 "Reports an address without a number, or a number without a digit."},
+                        .hooks = {.issue = check,
+                                  .issueKinds = kIssues,
+                                  .expression = checkLiteral,
+                                  .expressionNodes = nodeSet<NumberLiteral>()}};
 
 } // namespace feedhold::rules::missing_value

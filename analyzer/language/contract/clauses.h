@@ -24,6 +24,9 @@ std::vector<RawClause> findSetUp(std::span<const Sidecar> sidecars, ProgramId pr
 /// Whose contract a sidecar file holds; absent: no program of the file has its number.
 std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sidecar);
 
+/// Takes out the comments that only happen to begin with `@`: remarks in a program that has no clause, nor a word that
+/// may be a mistyped one.
+void dropRemarks(const ContractReading &reading, std::vector<RawClause> &clauses);
 /// Reads one clause into its contract, or leaves an issue.
 void readClause(ContractReading &reading, const RawClause &raw);
 

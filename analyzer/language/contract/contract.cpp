@@ -122,7 +122,8 @@ FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, co
   reading.result.sources.push_back(source);
   for (const Sidecar &sidecar : sidecars)
     reading.result.sources.push_back(sidecar.source);
-  const std::vector<RawClause> clauses = findClauses(reading, sidecars);
+  std::vector<RawClause> clauses = findClauses(reading, sidecars);
+  dropRemarks(reading, clauses);
   if (!clauses.empty())
     reading.jumpHeads = jumpHeads(model);
   for (const RawClause &raw : clauses)

@@ -561,6 +561,19 @@ void refuse(ContractReading &reading, const RawClause &raw, Span span, std::stri
 
 } // namespace
 
+void dropRemarks(const ContractReading &reading, std::vector<RawClause> &clauses) {
+  std::vector<std::string_view> names(std::begin(kClauseNames), std::end(kClauseNames));
+  names.insert(names.end(), {"@ALLOW", "@ALLOW-PROGRAM"});
+  std::vector<ProgramId> withContract;
+  for (const RawClause &raw : clauses) {
+    const std::string name = headOf(reading.result.source(raw.source).text(), raw).name;
+    if (raw.source != kProgramText || name == "@AT" || (!isSuppression(name) && nearestWord(name, names)))
+      withContract.push_back(raw.program);
+  }
+  std::ranges::sort(withContract);
+  std::erase_if(clauses, [&](const RawClause &raw) { return !std::ranges::binary_search(withContract, raw.program); });
+}
+
 void readClause(ContractReading &reading, const RawClause &raw) {
   const SourceFile source = reading.result.source(raw.source);
   const ClauseHead head = headOf(source.text(), raw);

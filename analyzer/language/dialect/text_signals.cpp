@@ -121,6 +121,17 @@ std::string_view descriptionOf(TextSignal signal) {
   return kDescriptions[static_cast<std::size_t>(signal)];
 }
 
+namespace {
+
+/// A loop without a number is written by beginners of Macro B, too: it tells of C operators only beside one of them.
+void weighLoops(TextScan &scan) {
+  if (scan.count(TextSignal::CLikeOperator) == 0 && scan.count(TextSignal::BareCondition) == 0 &&
+      scan.count(TextSignal::EdingStatement) == 0)
+    scan.counts[static_cast<std::size_t>(TextSignal::LoneEndWhile)] = 0;
+}
+
+} // namespace
+
 TextScan scanText(std::string_view text, std::string_view path) {
   TextScan scan;
   scanName(path, scan);
@@ -144,6 +155,7 @@ TextScan scanText(std::string_view text, std::string_view path) {
     scanLine(line.substr(0, kLongestLine), scan);
     at = lineEnd == end ? end : lineEnd + 1;
   }
+  weighLoops(scan);
   return scan;
 }
 
