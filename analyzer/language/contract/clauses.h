@@ -16,6 +16,12 @@ struct RawClause {
   SidecarScope scope = SidecarScope::Program; // Machine: a clause of the program itself goes before it
 };
 
+/// `@PARAM` -> its kind and what follows.
+struct ClauseHead {
+  Span keyword;
+  std::string name; // upper case, with `@`
+};
+
 /// Comments of the program, then the lines of its sidecar files.
 std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sidecar> sidecars);
 /// The set-up of the machine, for one program.

@@ -515,12 +515,6 @@ private:
   Contract &contract_;
 };
 
-/// `@PARAM` -> its kind and what follows.
-struct ClauseHead {
-  Span keyword;
-  std::string name; // upper case, with `@`
-};
-
 ClauseHead headOf(std::string_view text, const RawClause &raw) {
   std::uint32_t end = raw.span.begin;
   while (end < raw.span.end && (text[end] == '@' || text[end] == '-' || text[end] == '_' || isLetter(text[end])))
@@ -577,11 +571,10 @@ void dropRemarks(const ContractReading &reading, std::vector<RawClause> &clauses
 void readClause(ContractReading &reading, const RawClause &raw) {
   const SourceFile source = reading.result.source(raw.source);
   const ClauseHead head = headOf(source.text(), raw);
-  const bool inProgram = raw.source == kProgramText;
   if (isSuppression(head.name) && raw.number)
     return refuse(reading, raw, *raw.number,
                   fmt::format("no `@AT`; the place comes after the rule: `{} rule N30 reason`", head.name));
-  if (isSuppression(head.name) && !inProgram)
+  if (isSuppression(head.name) && raw.source != kProgramText)
     reading.result.allowances.push_back({raw.source, raw.span, raw.program});
   if (isSuppression(head.name))
     return; // read by those who suppress
