@@ -30,7 +30,7 @@ def program(release, built):
 
 def document(release):
     linked = {built: inside(built) for built in (*release.built.values(), release.wasm)}
-    libraries = sorted({each for found in linked.values() for each in found})
+    libraries = sorted({each.url: each for found in linked.values() for each in found}.values())
     packages = {each.package for each in libraries}
     used = sorted({each for each in tools() if each.package not in packages})
     programs = {built: program(release, built) for built in linked}

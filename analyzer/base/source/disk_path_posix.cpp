@@ -5,8 +5,6 @@
 
 namespace feedhold {
 
-std::filesystem::path diskPath(const std::filesystem::path &path) {
-  return normalPath(std::filesystem::absolute(path));
-}
+std::filesystem::path diskPath(const std::filesystem::path &path) { return normalPath(absolutePath(path)); }
 
 } // namespace feedhold

@@ -27,12 +27,12 @@ std::filesystem::path diskPath(const std::filesystem::path &path) {
   constexpr DWORD kFoldersAndLinks = FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT;
   const HANDLE file = ::CreateFileW(path.c_str(), 0, kAll, nullptr, OPEN_EXISTING, kFoldersAndLinks, nullptr);
   if (file == INVALID_HANDLE_VALUE)
-    return normalPath(std::filesystem::absolute(path));
+    return normalPath(absolutePath(path));
   std::wstring text(32767, L'\0'); // the longest path there is
   const DWORD size = ::GetFinalPathNameByHandleW(file, text.data(), static_cast<DWORD>(text.size()), 0);
   ::CloseHandle(file);
   if (size == 0 || size >= text.size())
-    return normalPath(std::filesystem::absolute(path));
+    return normalPath(absolutePath(path));
   text.resize(size);
   return plain(text);
 }

@@ -54,7 +54,7 @@ std::string uriOfAbsolute(std::string_view path) {
 }
 
 std::string uriOfPath(const std::filesystem::path &path) {
-  return uriOfAbsolute(pathText(normalPath(std::filesystem::absolute(path))));
+  return uriOfAbsolute(pathText(normalPath(absolutePath(path))));
 }
 
 std::filesystem::path pathOfUri(std::string_view uri) {

@@ -25,10 +25,14 @@ Path withServer(const Path &path, const Path &made) {
 
 } // namespace
 
+bool isAbsolutePath(const Path &path) { return namesServer(path) || path.is_absolute(); }
+
+Path absolutePath(const Path &path) { return namesServer(path) ? path : std::filesystem::absolute(path); }
+
 Path normalPath(const Path &path) { return withServer(path, path.lexically_normal()); }
 
 Path canonicalPath(const Path &path, std::error_code &error) {
-  return withServer(std::filesystem::absolute(path), std::filesystem::weakly_canonical(path, error));
+  return namesServer(path) ? normalPath(path) : std::filesystem::weakly_canonical(path, error);
 }
 
 std::string pathText(const Path &path) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path absoluteOf(const fs::path &path) { return normalPath(fs::absolute(path)); }
+fs::path absoluteOf(const fs::path &path) { return normalPath(absolutePath(path)); }
 
 bool isBelow(const fs::path &path, const fs::path &folder) {
   const fs::path relative = path.lexically_relative(folder);

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 const Config *ConfigFinder::forFolder(const fs::path &folder) {
   switch (options_.source) {
-  case ConfigSource::Nearest: return search(normalPath(fs::absolute(folder))).get();
+  case ConfigSource::Nearest: return search(normalPath(absolutePath(folder))).get();
   case ConfigSource::Named: return search({}).get();
   case ConfigSource::None: break;
   }
@@ -41,7 +41,7 @@ ConfigFinder::Found ConfigFinder::load(const fs::path &file) {
     problems_.push_back({pathText(file), source.error().message});
     return nullptr;
   }
-  const fs::path folder = normalPath(fs::absolute(file)).parent_path();
+  const fs::path folder = normalPath(absolutePath(file)).parent_path();
   ConfigText text = readConfig(source.value().text(), folder, known_);
   for (const ConfigError &error : text.errors)
     problems_.push_back({fmt::format("{}:{}:{}", pathText(file), error.line, error.column), error.message});

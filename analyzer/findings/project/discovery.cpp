@@ -42,7 +42,7 @@ fs::path plainPath(const fs::path &path) {
 std::string shownPath(const fs::path &path) { return pathText(plainPath(path)); }
 
 std::string relativeTo(const fs::path &folder, const fs::path &path) {
-  return pathText(normalPath(fs::absolute(path)).lexically_relative(folder));
+  return pathText(normalPath(absolutePath(path)).lexically_relative(folder));
 }
 
 bool matchesAny(const std::vector<std::string> &patterns, const Config &config, const fs::path &path) {

@@ -93,7 +93,7 @@ Result<std::vector<fs::path>> changedSince(const std::string &revision, const st
       return Error{fmt::format(
           "{}: is not in a git repository that git can read (`git status` there says why); --changed-since needs one",
           pathText(folder))};
-    repositories.insert(normalPath(fs::absolute(folder / withoutLineEnd(*up.value()))) / "");
+    repositories.insert(normalPath(absolutePath(folder / withoutLineEnd(*up.value()))) / "");
   }
   std::set<fs::path> changed;
   for (const fs::path &repository : repositories)

@@ -9,13 +9,13 @@ namespace fs = std::filesystem;
 fs::path placeOf(const fs::path &path) {
   std::error_code error;
   const fs::path place = canonicalPath(path, error);
-  return error ? normalPath(fs::absolute(path)) : place;
+  return error ? normalPath(absolutePath(path)) : place;
 }
 
 Result<SourceFile> openSource(const fs::path &path, const std::shared_ptr<const OpenTexts> &open) {
   if (!open)
     return SourceFile::open(path);
-  auto known = open->find(normalPath(fs::absolute(path)));
+  auto known = open->find(normalPath(absolutePath(path)));
   if (known == open->end() && !open->empty())
     known = open->find(placeOf(path));
   if (known != open->end())

@@ -50,7 +50,7 @@ Error whyNothing(const Workload &workload, const std::string &path) {
 
 /// In one spelling, however the paths were named.
 std::string folderNameOf(const ProjectFile &file) {
-  return file.path.empty() ? "" : pathText(normalPath(fs::absolute(file.path)).parent_path());
+  return file.path.empty() ? "" : pathText(normalPath(absolutePath(file.path)).parent_path());
 }
 
 void connect(Project &project, LoadGraphs graphs, unsigned jobs) {

@@ -21,7 +21,7 @@ constexpr std::string_view kMachineFile = "machine.contract";
 
 bool isThere(const fs::path &path, const std::shared_ptr<const OpenTexts> &open) {
   std::error_code ignored; // what cannot be asked for is not there
-  return (open && open->contains(normalPath(fs::absolute(path)))) || fs::exists(path, ignored);
+  return (open && open->contains(normalPath(absolutePath(path)))) || fs::exists(path, ignored);
 }
 
 /// The names of the set-up's file: in the folder of the program, then in those above, up to that of the project.
@@ -29,7 +29,7 @@ std::vector<fs::path> machineNames(const fs::path &file) {
   std::vector<fs::path> names;
   std::error_code ignored;
   fs::path shown = file.parent_path();
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty();
+  for (fs::path folder = absolutePath(file).parent_path(); !folder.empty();
        folder = folder.parent_path(), shown /= "..") {
     names.push_back(normalPath(shown / kMachineFile));
     const bool isTop = fs::exists(folder / kConfigFileName, ignored) || fs::exists(folder / ".git", ignored);

@@ -38,7 +38,7 @@ Stamps stampsOf(const std::vector<std::string> &paths, const std::vector<std::st
   Stamps stamps;
   for (const std::string &path : paths) {
     std::error_code error;
-    const fs::path absolute = normalPath(fs::absolute(path));
+    const fs::path absolute = normalPath(absolutePath(path));
     const bool isFolder = fs::is_directory(absolute, error);
     const fs::path folder = isFolder ? absolute : absolute.parent_path();
     addFolder(folder, isFolder ? Depth::AllBelow : Depth::FolderAlone, stamps);
@@ -46,7 +46,7 @@ Stamps stampsOf(const std::vector<std::string> &paths, const std::vector<std::st
       addFile(above / kConfigFileName, stamps);
   }
   for (const std::string &path : ignored)
-    stamps.erase(normalPath(fs::absolute(path)));
+    stamps.erase(normalPath(absolutePath(path)));
   return stamps;
 }
 

@@ -62,7 +62,7 @@ std::vector<const FilePattern *> matchingPatterns(const FoundFile &file) {
   std::vector<const FilePattern *> matching;
   if (file.config->files.empty())
     return matching;
-  const std::filesystem::path absolute = normalPath(std::filesystem::absolute(file.path));
+  const std::filesystem::path absolute = normalPath(absolutePath(file.path));
   const std::string relative = pathText(absolute.lexically_relative(file.config->folder));
   for (const FilePattern &pattern : file.config->files)
     if (patternMatches(pattern.path, relative))
@@ -80,7 +80,7 @@ DialectChoice choiceOf(GuessBasis basis) {
 }
 
 std::filesystem::path folderOf(const std::filesystem::path &file) {
-  return normalPath(std::filesystem::absolute(file)).parent_path();
+  return normalPath(absolutePath(file)).parent_path();
 }
 
 /// The folders that were named.  A person names one, a hook thousands of files.
@@ -88,7 +88,7 @@ class NamedFolders {
 public:
   explicit NamedFolders(const CheckOptions &options) {
     for (const std::string &path : options.paths)
-      places_.try_emplace((normalPath(std::filesystem::absolute(path)) / "").parent_path().native(), places_.size());
+      places_.try_emplace((normalPath(absolutePath(path)) / "").parent_path().native(), places_.size());
   }
 
   /// The folder of a file and those above it, up to the one that was named: of several the first.
@@ -294,7 +294,7 @@ std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, co
                                     const KnownNames &known) {
   std::set<std::filesystem::path> here, folders;
   for (const Candidate &candidate : candidates) {
-    here.insert(normalPath(std::filesystem::absolute(candidate.found.path)));
+    here.insert(normalPath(absolutePath(candidate.found.path)));
     if (candidate.found.foundBy == FoundBy::Name)
       folders.insert(folderOf(candidate.found.path));
   }

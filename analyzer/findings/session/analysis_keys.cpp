@@ -37,7 +37,7 @@ std::string hashOf(const Profile &profile) {
 std::set<fs::path> foldersOf(std::span<const WorkItem> items) {
   std::set<fs::path> folders;
   for (const WorkItem &item : items)
-    for (fs::path folder = normalPath(fs::absolute(item.path)).parent_path();
+    for (fs::path folder = normalPath(absolutePath(item.path)).parent_path();
          folders.insert(folder).second && folder.has_relative_path();)
       folder = folder.parent_path();
   return folders;

@@ -28,7 +28,7 @@ bool operator<(const KnownObligation &a, const KnownObligation &b) { return keyO
 namespace {
 
 std::string pathFrom(const fs::path &folder, const std::string &shown) {
-  return pathText(normalPath(fs::absolute(shown)).lexically_relative(folder));
+  return pathText(normalPath(absolutePath(shown)).lexically_relative(folder));
 }
 
 /// Which entries a run speaks of.

@@ -158,7 +158,7 @@ void addBaselineOptions(CLI::App &app, BaselineOptions &options) {
       ->needs(file);
 }
 
-fs::path folderOf(const BaselineOptions &options) { return normalPath(fs::absolute(options.file)).parent_path(); }
+fs::path folderOf(const BaselineOptions &options) { return normalPath(absolutePath(options.file)).parent_path(); }
 
 std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineOptions &options) {
   if (complaint) {

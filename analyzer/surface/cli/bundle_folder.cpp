@@ -16,7 +16,7 @@ namespace {
 
 /// Beside the folder, so that a move of it is one step.
 fs::path beside(const fs::path &folder, std::string_view what) {
-  fs::path path = normalPath(fs::absolute(folder));
+  fs::path path = normalPath(absolutePath(folder));
   if (!path.has_filename())
     path = path.parent_path();
   return path.string() + fmt::format(".{}-{}", what, processId());

@@ -122,7 +122,7 @@ Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
 
 /// One spelling for each file: `nc/` and `.` within it are `nc`.
 std::filesystem::path plainPath(const std::string &path) {
-  const std::filesystem::path absolute = normalPath(std::filesystem::absolute(path));
+  const std::filesystem::path absolute = normalPath(absolutePath(path));
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 

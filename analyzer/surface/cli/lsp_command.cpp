@@ -1,4 +1,5 @@
 // `feedhold lsp`: the language server on standard input and output.
+#include "base/source/path_text.h"
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/cli/cache_place.h"
@@ -33,7 +34,7 @@ int runLsp(const LspArguments &arguments) {
     options.cache = cache.take();
   }
   if (options.cache)
-    options.pages = std::filesystem::absolute(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
+    options.pages = absolutePath(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
   return serveClient(options);
 }
 

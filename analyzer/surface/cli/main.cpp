@@ -13,6 +13,7 @@ namespace {
 int run(std::vector<std::string> words) {
   using namespace feedhold;
   CLI::App app("Static analyser, linter and prover for CNC macro programs", "feedhold");
+  app.allow_windows_style_options(false); // `//server/programs` is a path
   app.set_help_flag("-h,--help", "print this help and exit");
   app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION, "print the version and exit");
   app.get_formatter()->label("Positionals", "Arguments");

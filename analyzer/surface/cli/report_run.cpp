@@ -68,12 +68,12 @@ std::vector<std::string> solvers() {
 CheckOptions filesOfReport(const ReportOptions &options, unsigned jobs) {
   CheckOptions files;
   for (const fs::path &path : options.paths)
-    files.paths.push_back(pathText(normalPath(fs::absolute(path))));
+    files.paths.push_back(pathText(normalPath(absolutePath(path))));
   files.control = options.reading.control;
   if (options.reading.isolated)
     files.config.source = ConfigSource::None;
   else if (options.reading.config)
-    files.config = {ConfigSource::Named, normalPath(fs::absolute(*options.reading.config))};
+    files.config = {ConfigSource::Named, normalPath(absolutePath(*options.reading.config))};
   files.jobs = jobs;
   return files;
 }

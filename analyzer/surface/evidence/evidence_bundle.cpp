@@ -158,8 +158,8 @@ private:
 std::string pathFrom(const fs::path &folder, const fs::path &path) {
   if (path.empty())
     return "";
-  const fs::path absolute = normalPath(fs::absolute(path));
-  const std::string relative = pathText(absolute.lexically_relative(normalPath(fs::absolute(folder / ""))));
+  const fs::path absolute = normalPath(absolutePath(path));
+  const std::string relative = pathText(absolute.lexically_relative(normalPath(absolutePath(folder / ""))));
   return relative.empty() ? pathText(absolute) : relative;
 }
 

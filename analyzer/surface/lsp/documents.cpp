@@ -19,7 +19,7 @@ Document openDocument(const Json &textDocument) {
   document.version = textDocument.at("version").get<std::int64_t>();
   document.text = std::make_shared<const std::string>(textDocument.at("text").get<std::string>());
   const std::filesystem::path path = pathOfUri(document.uri);
-  document.path = path.is_absolute() ? normalPath(path) : std::filesystem::path();
+  document.path = isAbsolutePath(path) ? normalPath(path) : std::filesystem::path();
   if (!document.path.empty())
     document.place = placeOf(document.path);
   return document;

@@ -18,7 +18,7 @@ std::size_t lengthAt(std::string_view text, std::size_t at) {
 
 constexpr std::size_t kBeyondUtf16Unit = 4; // characters of four bytes are two units
 
-std::filesystem::path normal(const std::filesystem::path &path) { return normalPath(std::filesystem::absolute(path)); }
+std::filesystem::path normal(const std::filesystem::path &path) { return normalPath(absolutePath(path)); }
 
 } // namespace
 

@@ -20,7 +20,7 @@ bool isTrue(const Json &json, std::string_view pointer) { return at(json, pointe
 
 std::filesystem::path folderOf(const Json &uri) {
   const std::filesystem::path path = uri.is_string() ? pathOfUri(uri.get<std::string>()) : std::filesystem::path();
-  return path.is_absolute() ? normalPath(path) : std::filesystem::path();
+  return isAbsolutePath(path) ? normalPath(path) : std::filesystem::path();
 }
 
 } // namespace

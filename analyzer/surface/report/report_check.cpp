@@ -84,12 +84,12 @@ Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) 
   try {
     if (document.value().at("version") != 2)
       return Error{"the report has another format version"};
-    const auto pathOf = [&](const Json &path) { return normalPath(fs::absolute(folder) / path.get<std::string>()); };
+    const auto pathOf = [&](const Json &path) { return normalPath(absolutePath(folder) / path.get<std::string>()); };
     ReportOrigin origin{.version = document.value().at("feedhold"), .options = {}};
     const Json &reading = document.value().at("options");
     for (const Json &path : reading.at("paths"))
       origin.options.paths.push_back(pathOf(path));
-    origin.options.reading = readingFrom(reading, fs::absolute(folder));
+    origin.options.reading = readingFrom(reading, absolutePath(folder));
     if (!document.value().at("date").is_null())
       origin.options.date = document.value().at("date").get<std::string>();
     return origin;

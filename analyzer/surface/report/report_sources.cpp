@@ -23,7 +23,7 @@ struct FoundSource {
 std::vector<FoundSource> whereTheyWere(const std::vector<std::string> &paths, const fs::path &folder) {
   std::vector<FoundSource> found;
   for (const std::string &path : paths)
-    found.push_back({normalPath(fs::absolute(folder) / path)});
+    found.push_back({normalPath(absolutePath(folder) / path)});
   return found;
 }
 

@@ -35,7 +35,7 @@ Json toJson(const Invocation &invocation, const fs::path &root) {
 } // namespace
 
 Json artifactLocation(const std::string &path, const fs::path &root) {
-  const fs::path absolute = fs::path(path).is_absolute() ? fs::path(path) : root / path;
+  const fs::path absolute = isAbsolutePath(path) ? fs::path(path) : root / path;
   const std::string relative = pathText(normalPath(absolute).lexically_relative(root));
   if (relative.empty() || relative.starts_with(".."))
     return {{"uri", uriOfPath(absolute)}};
