@@ -1,5 +1,5 @@
-// variable-not-available: `#50`, `#250`: between the ranges.
-#include "findings/rule/rule.h"
+// variable-not-available: `#50`, `#250`: between the ranges; `#[#1]` where #1 is 50.
+#include "rules/variables/computed_number.h"
 
 #include <fmt/format.h>
 
@@ -117,11 +117,32 @@ void check(const FileContext &context, const Reporter &reporter) {
     reportOne(number, place, context, reporter);
 }
 
+/// Sure where the program computes one number, or one of a few.
+void checkComputed(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (const ComputedNumber &computed : computedNumbersOf(facts)) {
+    const auto isMissing = [&](std::uint32_t number) { return !findVariable(context.dialect, number); };
+    const auto missing = std::ranges::find_if(computed.numbers, isMissing);
+    if (missing == computed.numbers.end() && !computed.isNegative)
+      continue;
+    const bool always = computed.isNegative || std::ranges::all_of(computed.numbers, isMissing);
+    const std::string what = computed.isNegative ? std::string("is negative here")
+                                                 : fmt::format("{} {} here", always ? "is" : "can be", *missing);
+    Diagnostic diagnostic{
+        .message = fmt::format("the number of {} {}", context.quoted(computed.place), what),
+        .span = computed.place,
+        .flow = always ? pathFromEntry(facts, computed.node) : std::vector<Label>{},
+        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::VariableNotAvailable))}};
+    if (!computed.isNegative)
+      diagnostic.notes.push_back(neighbours(context.dialect, *missing));
+    reporter.report(std::move(diagnostic), always ? Severity::Error : Severity::Warning);
+  }
+}
+
 } // namespace
 
 extern const Rule variableNotAvailable;
 const Rule variableNotAvailable{.info = {"variable-not-available", Category::Variable, Severity::Error,
                                          "Reports a variable number that no machine with this control has."},
-                                .hooks = {.file = check}};
+                                .hooks = {.file = check, .flow = checkComputed}};
 
 } // namespace feedhold::rules::variable_not_available

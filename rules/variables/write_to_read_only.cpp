@@ -1,6 +1,7 @@
-// write-to-read-only: `#5041=0`.
-#include "findings/rule/rule.h"
+// write-to-read-only: `#5041=0`, and `#[#1]=0` where #1 is 5041.
+#include "rules/variables/computed_number.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::write_to_read_only {
@@ -21,11 +22,31 @@ void check(const VariableUse &use, const FileContext &context, const Reporter &r
                              contents(*range)}});
 }
 
+void checkComputed(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (const ComputedNumber &computed : computedNumbersOf(facts)) {
+    const auto isReadOnly = [&](std::uint32_t number) {
+      const VariableRange *range = findVariable(context.dialect, number);
+      return range && (range->access == VariableAccess::ReadOnly || range->kind == VariableKind::Vacant);
+    };
+    const auto found = std::ranges::find_if(computed.numbers, isReadOnly);
+    if (!computed.isWritten || found == computed.numbers.end())
+      continue;
+    const bool always = std::ranges::all_of(computed.numbers, isReadOnly);
+    reporter.report({.message = fmt::format("{} {} `#{}`, which can only be read", context.quoted(computed.place),
+                                            always ? "is" : "can be", *found),
+                     .span = computed.place,
+                     .flow = always ? pathFromEntry(facts, computed.node) : std::vector<Label>{},
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),
+                               contents(*findVariable(context.dialect, *found))}},
+                    always ? Severity::Error : Severity::Warning);
+  }
+}
+
 } // namespace
 
 extern const Rule writeToReadOnly;
 const Rule writeToReadOnly{.info = {"write-to-read-only", Category::Variable, Severity::Error,
                                     "Reports an assignment to a system variable that can only be read."},
-                           .hooks = {.variable = check}};
+                           .hooks = {.variable = check, .flow = checkComputed}};
 
 } // namespace feedhold::rules::write_to_read_only

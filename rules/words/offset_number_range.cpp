@@ -1,8 +1,12 @@
-// offset-number-range: `G10 L2 P7`, `G10 L20 P0`; `G10 L12 P1` without R.
-#include "findings/rule/rule.h"
+// offset-number-range: `G10 L2 P7`, `G10 L20 P0`, `G54.1 P0`, `H5000`; `G10 L12 P1` without R.
+#include "rules/words/word_values.h"
+
+#include "rules/words/block_words.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,13 +21,133 @@ constexpr std::uint32_t kLastMoreOffset = 300; // with the largest option
 constexpr std::uint32_t kFirstToolTable = 10;  // L10 to L13: length, its wear, radius, its wear
 constexpr std::uint32_t kLastToolTable = 13;
 
-void tellRange(const Word &number, const Word &table, std::string_view range, const FileContext &context,
-               const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} with {} names no work offset", context.quoted(number.span()),
-                                          context.quoted(table.span())),
-                   .span = number.span(),
-                   .labels = {{table.span(), std::string(range)}},
-                   .notes = {"the control stops with an alarm, and the offset is not set"}});
+constexpr std::uint16_t kManyOffsetsOfHaas = 1540; // G154 P1 to P99
+constexpr double kLastOfManyOffsets = 99;
+constexpr double kMostOffsetPairs = 2000; // of FANUC controls, with the largest option
+constexpr double kMostOfOthers = 999;
+constexpr double kOffsetBound = 10000; // mm: offsets have four digits before the point
+
+/// A word that numbers an offset, or is the value of one, and what it may be.
+struct OffsetWord {
+  const Word *table; // names the table
+  AllowedNumbers allowed;
+  std::string wrong; // "names no work offset"
+  std::string range; // what the table has
+};
+
+double lastToolOffset(const FileContext &context) {
+  if (context.dialect.hasFanucParameters)
+    return kMostOffsetPairs;
+  const OffsetMemory &memory = context.dialect.behaviour.lengthOffsets;
+  return memory.count == 0 || memory.geometry[1] != 0 ? kMostOfOthers : memory.count;
+}
+
+OffsetWord toolOffset(const Word &table, double first, const FileContext &context) {
+  const double last = lastToolOffset(context);
+  return {&table, {first, last}, "names no tool offset", fmt::format("offsets {:g} to {:g}", first, last)};
+}
+
+std::optional<OffsetWord> ofDataSetting(const Word &word, BlockId block, const FileContext &context) {
+  const Word *table = findWord(context.tree, block, 'L');
+  const auto kind = table ? table->integer() : std::nullopt;
+  if (!kind)
+    return std::nullopt;
+  const bool isTool = *kind >= kFirstToolTable && *kind <= kLastToolTable;
+  if (word.address() == 'R')
+    return isTool ? std::optional(OffsetWord{table,
+                                             {std::nextafter(-kOffsetBound, 0), std::nextafter(kOffsetBound, 0)},
+                                             "is beyond the range of a tool offset",
+                                             "an offset has four digits before the point"})
+                  : std::nullopt;
+  if (*kind == kWorkOffsets)
+    return OffsetWord{table, {0, kLastWorkOffset}, "names no work offset", "P1 to P6: G54 to G59"};
+  if (*kind == kMoreWorkOffsets)
+    return OffsetWord{table, {1, kLastMoreOffset}, "names no work offset", "P1 and up: G54.1 P1 and up"};
+  if (isTool && context.dialect.machine == MachineKind::Milling)
+    return toolOffset(*table, 1, context);
+  return std::nullopt;
+}
+
+/// LinuxCNC, and grbl, whose programs have no O number, have P0 for the offset in force, P7 to P9, and Z for a tool.
+bool isForOtherControl(BlockId block, const FileContext &context) {
+  return context.dialect.grammar.oWords || !context.model.programs[context.model.programOf(block)].name.number;
+}
+
+std::optional<OffsetWord> offsetWordOf(const Word &word, BlockId block, const FileContext &context) {
+  if (word.has(Word::kArgument) || word.has(Word::kComma) || context.tree.blocks[block].has(Block::kBroken) ||
+      isForOtherControl(block, context))
+    return std::nullopt;
+  if (findCode(context.tree, block, context.dialect, CodeRole::DataSetting))
+    return word.address() == 'P' || word.address() == 'R' ? ofDataSetting(word, block, context) : std::nullopt;
+  if (context.tree.blocks[block].has(Block::kData) || meansOwnWords(context, block))
+    return std::nullopt;
+  if (word.address() == 'P') {
+    const Word *code = findAction(context.tree, block, context.dialect, {CodeAction::ExtendedWorkOffset});
+    if (!code)
+      return std::nullopt;
+    const double last = code->tenths() == kManyOffsetsOfHaas ? kLastOfManyOffsets : kLastMoreOffset;
+    return OffsetWord{code, {1, last}, "names no work offset", fmt::format("P1 to P{:g}", last)};
+  }
+  const bool isNumber = (word.address() == 'H' || word.address() == 'D') &&
+                        context.dialect.machine == MachineKind::Milling &&
+                        !findCode(context.tree, block, context.dialect, CodeRole::CannedCycle) &&
+                        !findCode(context.tree, block, context.dialect, CodeRole::Contour) &&
+                        !findCode(context.tree, block, context.dialect, CodeRole::SubprogramCall);
+  return isNumber ? std::optional(toolOffset(word, 0, context)) : std::nullopt;
+}
+
+std::vector<Label> labelOf(const OffsetWord &offset, const Word &word) {
+  return offset.table == &word ? std::vector<Label>{} : std::vector<Label>{{offset.table->span(), offset.range}};
+}
+
+std::string consequence(const OffsetWord &offset, const Word &word) {
+  if (offset.table == &word)
+    return fmt::format("the control stops with an alarm: it has {} at most", offset.range);
+  return offset.table->address() == 'L' ? "the control stops with an alarm, and the offset is not set"
+                                        : "the control stops with an alarm";
+}
+
+/// A length of a tool without a point may be in the least increment.
+bool isPlainValue(const Word &word) { return word.address() != 'R' || word.has(Word::kPoint); }
+
+void checkLiteral(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (!word.isNumber() || !isPlainValue(word))
+    return;
+  const auto offset = offsetWordOf(word, block, context);
+  if (!offset || offset->allowed.contains(word.number().toDouble()))
+    return;
+  const std::string seen = offset->table == &word ? context.quoted(word.span())
+                                                  : fmt::format("{} with {}", context.quoted(word.span()),
+                                                                context.quoted(offset->table->span()));
+  reporter.report({.message = fmt::format("{} {}", seen, offset->wrong),
+                   .span = word.span(),
+                   .labels = labelOf(*offset, word),
+                   .notes = {consequence(*offset, word)}});
+}
+
+void checkComputed(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (const ComputedWord &computed : computedWordsOf(facts)) {
+    const Word &word = *computed.word;
+    const bool isAsked = std::string_view("DHPR").find(word.address()) != std::string_view::npos;
+    const auto offset = isAsked ? offsetWordOf(word, computed.block, context) : std::nullopt;
+    if (!offset)
+      continue;
+    AllowedNumbers allowed = offset->allowed;
+    if (word.address() != 'R') { // whole numbers are rounded to the nearest
+      allowed.least -= 0.5;
+      allowed.most = std::nextafter(allowed.most + 0.5, 0);
+    }
+    const Outside outside = outsideOf(*computed.value, allowed);
+    if (outside == Outside::Never)
+      continue;
+    Diagnostic diagnostic{.message = fmt::format("{} {}, which {}", context.quoted(word.span()),
+                                                 describeNumber(*computed.value, allowed, outside), offset->wrong),
+                          .span = word.span(),
+                          .labels = labelOf(*offset, word),
+                          .flow = pathOf(facts, computed, outside),
+                          .notes = {consequence(*offset, word)}};
+    reporter.report(std::move(diagnostic), outside == Outside::Always ? Severity::Error : Severity::Warning);
+  }
 }
 
 /// `G10 L12 P1`, or with Z in the place of R.
@@ -68,11 +192,6 @@ void checkNgc(BlockId block, const FileContext &context, const Reporter &reporte
                  isWork ? "write P1 for G54 to P9 for G59.3, or P0 for the one in force" : "write the tool as P"}});
 }
 
-/// LinuxCNC, and grbl, whose programs have no O number, have P0 for the offset in force, P7 to P9, and Z for a tool.
-bool isForOtherControl(BlockId block, const FileContext &context) {
-  return context.dialect.grammar.oWords || !context.model.programs[context.model.programOf(block)].name.number;
-}
-
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const Word *table = findWord(context.tree, block, 'L');
   if (!table || !findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
@@ -82,25 +201,24 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     checkNgc(block, context, reporter);
   if (isForOtherControl(block, context))
     return;
-  const Word *number = findWord(context.tree, block, 'P');
   const auto kind = table->integer();
-  if (!kind || !number)
+  if (!kind || *kind < kFirstToolTable || *kind > kLastToolTable || context.dialect.machine != MachineKind::Milling)
     return;
-  const auto which = number->integer();
-  if (*kind == kWorkOffsets && which && *which > kLastWorkOffset)
-    tellRange(*number, *table, "P1 to P6: G54 to G59", context, reporter);
-  else if (*kind == kMoreWorkOffsets && which && (*which == 0 || *which > kLastMoreOffset))
-    tellRange(*number, *table, "P1 and up: G54.1 P1 and up", context, reporter);
-  else if (*kind >= kFirstToolTable && *kind <= kLastToolTable)
-    checkValue(*table, block, context, reporter);
+  if (findWord(context.tree, block, 'P'))
+    return checkValue(*table, block, context, reporter);
+  reporter.report({.message = fmt::format("{} sets a tool offset, but no P says which", context.quoted(table->span())),
+                   .span = table->span(),
+                   .notes = {"the control stops with an alarm", "write the number of the offset as P"}});
 }
 
 } // namespace
 
 extern const Rule offsetNumberRange;
 const Rule offsetNumberRange{
-    .info = {"offset-number-range", Category::Word, Severity::Error,
-             "Reports a `G10` whose P names no work offset, or that gives a tool offset no value."},
-    .hooks = {.block = check}};
+    .info =
+        {"offset-number-range", Category::Word, Severity::Error,
+         "Reports the number of a work offset or a tool offset that the control does not have, and a `G10` that gives "
+         "a tool offset no value, or one beyond its range."},
+    .hooks = {.block = check, .word = checkLiteral, .wordAddresses = "DHPR", .flow = checkComputed}};
 
 } // namespace feedhold::rules::offset_number_range
