@@ -17,8 +17,21 @@ bool namesFile(const FileContext &context, BlockId block) {
   });
 }
 
+/// `M98 P0`
+bool namesNone(const Call &call, const FileContext &context) {
+  return namesProgram(call.kind) && call.programWord && !context.dialect.grammar.oWords &&
+         wordOf(context, *call.programWord).integer() == 0;
+}
+
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.model.calls[id];
+  if (namesNone(call, context)) {
+    const Span zero = wordOf(context, *call.programWord).span();
+    reporter.report({.message = fmt::format("{} names no program: numbers begin at 1", context.quoted(zero)),
+                     .span = zero,
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ProgramNotFound))}});
+    return;
+  }
   const bool needsOne = namesProgram(call.kind) || call.kind == CallKind::Local;
   if (!needsOne || call.programWord || context.tree.blocks[call.block].has(Block::kBroken) ||
       namesFile(context, call.block))
@@ -37,8 +50,9 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule callWithoutProgram;
-const Rule callWithoutProgram{.info = {"call-without-program", Category::Call, Severity::Error,
-                                       "Reports a call without the number of the program that it calls."},
-                              .hooks = {.call = check}};
+const Rule callWithoutProgram{
+    .info = {"call-without-program", Category::Call, Severity::Error,
+             "Reports a call without the number of the program that it calls, or with the number 0."},
+    .hooks = {.call = check}};
 
 } // namespace feedhold::rules::call_without_program

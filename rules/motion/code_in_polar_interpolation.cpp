@@ -44,16 +44,22 @@ Region behind(const Region &before, BlockId block, const FileContext &context) {
   return before;
 }
 
-/// Only G01, G02, G03, G04, G40 to G42, G65 to G67 and the codes of feeds are taken between G12.1 and G13.1; under
-/// G07.1 no positioning, no cycle and no coordinate system.  Source: the programming manuals, and PS0146 and PS0176.
-bool isRefused(const Code &code, Mode mode) {
-  constexpr std::array kRoles = {CodeRole::ReferenceReturn, CodeRole::MachinePosition, CodeRole::Contour,
-                                 CodeRole::CannedCycle};
-  constexpr std::array kActions = {CodeAction::WorkOffset, CodeAction::LocalShift, CodeAction::CoordinateSet};
-  constexpr std::array kOfPolar = {CodeAction::PlaneXY, CodeAction::PlaneZX, CodeAction::PlaneYZ,
-                                   CodeAction::Inch,    CodeAction::Metric,  CodeAction::Thread};
+constexpr std::uint16_t kPolarAsHaas = 1120; // G112
+
+/// Source: the texts of PS0146 and PS0176, and what the programming manuals say of coordinate systems under G07.1.
+bool isRefused(const Code &code, const Region &region) {
+  constexpr std::array kRoles = {CodeRole::ReferenceReturn, CodeRole::MachinePosition};
+  constexpr std::array kActions = {CodeAction::LocalShift, CodeAction::SideCycle};
+  constexpr std::array kOfPolar = {CodeAction::PlaneXY, CodeAction::PlaneZX,    CodeAction::PlaneYZ,
+                                   CodeAction::Thread,  CodeAction::RotationOn, CodeAction::Skip};
+  constexpr std::array kOfCylinder = {CodeAction::WorkOffset, CodeAction::ExtendedWorkOffset};
   const auto has = [](const auto &all, auto each) { return std::ranges::find(all, each) != all.end(); };
-  return has(kRoles, code.role) || has(kActions, code.action) || (mode == Mode::Polar && has(kOfPolar, code.action));
+  const bool isDrilling = CodeAction::CycleDrill <= code.action && code.action <= CodeAction::CycleFineBore;
+  // Haas lathes take G00 behind G112, and their programs may be taken for those of a FANUC.
+  if (code.action == CodeAction::Rapid)
+    return region.code->tenths() != kPolarAsHaas;
+  return has(kRoles, code.role) || has(kActions, code.action) || isDrilling || isSingleTurningCycle(code.action) ||
+         (region.mode == Mode::Polar ? has(kOfPolar, code.action) : has(kOfCylinder, code.action));
 }
 
 void report(const Word &word, const Region &region, const FileContext &context, const Reporter &reporter) {
@@ -89,7 +95,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
       continue;
     for (const Word &word : context.tree.wordsOf(block))
       if (const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;
-          code && isRefused(*code, region.mode)) {
+          code && isRefused(*code, region)) {
         report(word, region, context, reporter);
         break;
       }
@@ -99,11 +105,10 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule codeInPolarInterpolation;
-const Rule codeInPolarInterpolation{
-    .info =
-        {"code-in-polar-interpolation", Category::Motion, Severity::Error,
-         "Reports a reference return, a canned cycle, a coordinate system or a plane between `G12.1` and `G13.1`, or "
-         "while `G07.1` is active."},
-    .hooks = {.program = check}};
+const Rule codeInPolarInterpolation{.info = {"code-in-polar-interpolation", Category::Motion, Severity::Error,
+                                             "Reports a rapid move, a reference return, a canned cycle or another code "
+                                             "that the control refuses between `G12.1` "
+                                             "and `G13.1`, or while `G07.1` is active."},
+                                    .hooks = {.program = check}};
 
 } // namespace feedhold::rules::code_in_polar_interpolation

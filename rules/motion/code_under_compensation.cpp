@@ -19,7 +19,6 @@ struct Forbidden {
 constexpr std::array kPlanes = {CodeAction::PlaneXY, CodeAction::PlaneZX, CodeAction::PlaneYZ};
 constexpr std::uint16_t kFirstToolOffset = 450; // G45 to G48
 constexpr std::uint16_t kLastToolOffset = 480;
-constexpr std::uint16_t kScaling = 510;
 
 bool isPolarInterpolation(const Code &code) { return code.tenths == 121 || code.tenths == 1120; }
 
@@ -68,9 +67,7 @@ private:
       if (!dialect.hasFanucParameters)
         continue;
       if (isPolarInterpolation(*code))
-        return {word, "PS0145 (polar coordinate interpolation begins during compensation)"};
-      if (isMilling && code->tenths == kScaling)
-        return {word, "PS0141 (G51 during compensation)"};
+        return {word, "PS0146 (polar coordinate interpolation begins during compensation)"};
       if (isMilling && code->tenths >= kFirstToolOffset && code->tenths <= kLastToolOffset &&
           code->action == CodeAction::OtherCycle)
         return {word, "PS0042 (G45 to G48 during compensation)"};

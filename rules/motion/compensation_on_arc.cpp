@@ -1,9 +1,11 @@
-// compensation-on-arc: `G41 D1 G02 X10. Y0. R5.`.
+// compensation-on-arc: `G41 D1 G02 X10. Y0. R5.`; `G41 D1`, `G02 X10. Y0. R5.`.
 #include "findings/rule/rule.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <string_view>
 
 namespace feedhold::rules::compensation_on_arc {
 namespace {
@@ -29,6 +31,43 @@ std::optional<bool> stateBefore(const FileContext &context, BlockId block) {
   return std::nullopt;
 }
 
+bool hasAxis(const FileContext &context, BlockId block) {
+  return std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
+    return std::string_view("XYZUVW").find(word.address()) != std::string_view::npos;
+  });
+}
+
+/// `G41 D1` in a block without a move: the arc behind it is the first one that the compensation has.
+const Word *loneStartBefore(const FileContext &context, BlockId arc) {
+  const BlockId first = context.model.programs[context.model.programOf(arc)].first;
+  const auto targets = context.model.jumpTargetsOf(context.model.programOf(arc));
+  for (std::uint32_t i = arc.index(); i-- > first.index() && !targets.contains(BlockId(i + 1));) {
+    const BlockId each(i);
+    if (hasAxis(context, each) || !context.tree.statementsOf(each).empty() ||
+        context.tree.blocks[each].has(Block::kBroken) || context.tree.blocks[each].has(Block::kSkip) ||
+        meansOwnWords(context.tree, each, context.dialect) || !context.model.callsIn(each, each.next()).empty() ||
+        endIn(context, each))
+      return nullptr;
+    if (const Word *start = startIn(context, each))
+      return stateBefore(context, each) == false ? start : nullptr;
+  }
+  return nullptr;
+}
+
+void checkBehindStart(const Word &arc, BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Word *start = hasAxis(context, block) && !meansOwnWords(context.tree, block, context.dialect)
+                          ? loneStartBefore(context, block)
+                          : nullptr;
+  if (!start)
+    return;
+  reporter.report({.message = fmt::format("the first move behind {} is an arc", context.quoted(start->span())),
+                   .span = arc.span(),
+                   .labels = {{start->span(), "begins with the next move"}},
+                   .notes = {"the control stops with an alarm: it needs a straight move for the compensation to take "
+                             "effect",
+                             "write a G00 or G01 block before the arc"}});
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const Code *code = codeOf(word, context.dialect);
   const bool isArc =
@@ -37,7 +76,9 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
     return; // where subroutines are o-words, an arc may begin the compensation
   const Word *start = startIn(context, block);
   const Word *switching = start ? start : endIn(context, block);
-  if (!switching || meansOwnWords(context.tree, block, context.dialect))
+  if (!switching)
+    return checkBehindStart(word, block, context, reporter);
+  if (meansOwnWords(context.tree, block, context.dialect))
     return;
   // G41 again where it is in force, or G40 where nothing is, changes nothing.  A caller may have left it in any state.
   const auto known = stateBefore(context, block);
@@ -56,8 +97,10 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
 } // namespace
 
 extern const Rule compensationOnArc;
-const Rule compensationOnArc{.info = {"compensation-on-arc", Category::Motion, Severity::Warning,
-                                      "Reports `G41`, `G42` or `G40` in the block of a `G02` or `G03`."},
-                             .hooks = {.word = check, .wordAddresses = "G"}};
+const Rule compensationOnArc{
+    .info = {"compensation-on-arc", Category::Motion, Severity::Warning,
+             "Reports `G41`, `G42` or `G40` in the block of a `G02` or `G03`, and an arc that is the "
+             "first move behind a `G41` or `G42`."},
+    .hooks = {.word = check, .wordAddresses = "G"}};
 
 } // namespace feedhold::rules::compensation_on_arc

@@ -48,8 +48,13 @@ private:
     return last && isZeroFeed(*last) ? last : nullptr;
   }
   bool cuts(const AbstractState &state) const {
-    return view_.surely(state, ModalKind::Motion,
-                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+    return view_.surely(
+               state, ModalKind::Motion,
+               {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise, CodeAction::Thread}) ||
+           view_.surely(state, ModalKind::Cycle,
+                        {CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck,
+                         CodeAction::CycleChipBreak, CodeAction::CycleTap, CodeAction::CycleTapLeft,
+                         CodeAction::CycleBore, CodeAction::CycleBoreStop});
   }
 
   MotionView view_;

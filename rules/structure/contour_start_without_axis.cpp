@@ -23,7 +23,8 @@ bool holdsNothing(BlockId block, const FileContext &context) {
 /// A FANUC control looks for G00 or G01 in the block itself (PS0065).
 bool isMissingMotion(BlockId block, const FileContext &context) {
   return context.dialect.hasFanucParameters && context.tree.statementsOf(block).empty() &&
-         std::ranges::none_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'G'; });
+         (std::ranges::none_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'G'; }) ||
+          findCode(context.tree, block, context.dialect, CodeRole::Arc));
 }
 
 void tellMotion(const Contour &contour, const Word &cycle, const FileContext &context, const Reporter &reporter) {

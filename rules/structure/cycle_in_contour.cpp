@@ -1,4 +1,4 @@
-// cycle-in-contour: a second `G71`, or a call by `M98`, between the blocks that P and Q of a contour cycle name.
+// cycle-in-contour: a second `G71`, a call by `M98`, or `G28`, between the blocks that P and Q of a contour cycle name.
 #include "findings/rule/rule.h"
 
 #include "rules/structure/structure_view.h"
@@ -6,9 +6,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace feedhold::rules::cycle_in_contour {
 namespace {
+
+/// FANUC controls take G00 to G03, G04 and modes there (PS0325).
+const Word *refusedIn(BlockId block, const FileContext &context) {
+  constexpr std::array kRoles = {CodeRole::ReferenceReturn, CodeRole::MachinePosition, CodeRole::Skip,
+                                 CodeRole::DataSetting};
+  constexpr std::array kActions = {CodeAction::Thread,        CodeAction::Inch,          CodeAction::Metric,
+                                   CodeAction::LocalShift,    CodeAction::DiameterCycle, CodeAction::FaceCycle,
+                                   CodeAction::ThreadCycle,   CodeAction::ThreadPasses,  CodeAction::FaceGroove,
+                                   CodeAction::DiameterGroove};
+  for (const Word &word : context.tree.wordsOf(block)) {
+    const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;
+    if (code && (std::ranges::find(kRoles, code->role) != kRoles.end() ||
+                 std::ranges::find(kActions, code->action) != kActions.end()))
+      return &word;
+  }
+  return nullptr;
+}
 
 /// The first thing in the contour that is no part of one.
 std::optional<Span> strangerIn(const Contour &contour, ProgramId program, const FileContext &context) {
@@ -24,6 +42,10 @@ std::optional<Span> strangerIn(const Contour &contour, ProgramId program, const 
   for (const Call &call : context.model.callsIn(contour.first, contour.last.next()))
     if (call.kind == CallKind::Subprogram || call.kind == CallKind::Local)
       note(call.block, call.span);
+  if (context.dialect.hasFanucParameters)
+    for (BlockId block = contour.first; block <= contour.last; block = block.next())
+      if (const Word *refused = refusedIn(block, context))
+        note(block, refused->span());
   return first;
 }
 
@@ -36,7 +58,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     told.push_back(*stranger);
     const auto lineOf = [&](BlockId block) { return context.source.lineOf(context.tree.blocks[block].begin); };
     reporter.report(
-        {.message = fmt::format("{} stands inside the contour of another cycle", context.quoted(*stranger)),
+        {.message = fmt::format("{} stands inside the contour of a cycle", context.quoted(*stranger)),
          .span = *stranger,
          .labels = {{context.tree.blocks[contour.cycle->block].span(),
                      fmt::format("its contour is lines {} to {}", lineOf(contour.first), lineOf(contour.last))}},
@@ -48,9 +70,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 } // namespace
 
 extern const Rule cycleInContour;
-const Rule cycleInContour{.info = {"cycle-in-contour", Category::Structure, Severity::Error,
-                                   "Reports a contour cycle, or a call by `M98`, between the blocks that P and Q of a "
-                                   "contour cycle name."},
-                          .hooks = {.program = check}};
+const Rule cycleInContour{
+    .info = {"cycle-in-contour", Category::Structure, Severity::Error,
+             "Reports a cycle, a call by `M98`, a reference return or another code that is no part of a "
+             "contour between the blocks that P and Q of a contour cycle name."},
+    .hooks = {.program = check}};
 
 } // namespace feedhold::rules::cycle_in_contour

@@ -1,4 +1,4 @@
-// corner-without-second-move: `Y10. ,C10.`, and the next block moves Z.
+// corner-without-second-move: `Y10. ,C10.`, and the next block moves Z, or is a `G00`.
 #include "rules/motion/tool_sections.h"
 
 #include <fmt/format.h>
@@ -23,10 +23,12 @@ bool hasAny(BlockId block, std::string_view addresses, const FileContext &contex
   });
 }
 
-/// Another plane than XY may be in force.
+/// Another plane than XY may be in force, on a lathe another than ZX.
 bool choosesPlane(const Program &program, const FileContext &context) {
+  const bool isTurning = context.dialect.machine == MachineKind::Turning;
+  const CodeAction other = isTurning ? CodeAction::PlaneXY : CodeAction::PlaneZX;
   for (BlockId block = program.first; block < program.last; block = block.next())
-    if (findAction(context.tree, block, context.dialect, {CodeAction::PlaneZX, CodeAction::PlaneYZ}))
+    if (findAction(context.tree, block, context.dialect, {other, CodeAction::PlaneYZ}))
       return true;
   return false;
 }
@@ -43,18 +45,43 @@ std::optional<BlockId> nextMove(BlockId corner, const Program &program, const Hi
   return std::nullopt;
 }
 
+/// The next block positions: PS0052 of FANUC controls.
+const Word *rapidIn(BlockId block, const FileContext &context) {
+  return context.dialect.hasFanucParameters ? findAction(context.tree, block, context.dialect, {CodeAction::Rapid})
+                                            : nullptr;
+}
+
+void tellRapid(const Word &corner, const Word &rapid, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("{} has no second side: the next block is a {}",
+                                          context.quoted(corner.span()), context.quoted(rapid.span())),
+                   .span = corner.span(),
+                   .labels = {{rapid.span(), "positions, and cuts no corner"}},
+                   .notes = {"the control stops with PS0052 (no G01 behind a chamfer or a corner radius)",
+                             fmt::format("write the cutting move that goes on from the corner, or take {} out",
+                                         context.quoted(corner.span()))}},
+                  Severity::Error);
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
-  if (context.dialect.machine != MachineKind::Milling || choosesPlane(program, context))
+  const bool isTurning = context.dialect.machine == MachineKind::Turning;
+  const std::string_view inPlane = isTurning ? "XZACUVWIJKR" : "XYABCUVWIJKR";
+  if (choosesPlane(program, context))
     return;
   const HiddenWork hidden(id, context);
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     const Word *corner = hidden.isIn(block) ? nullptr : cornerIn(block, context);
     const auto next = corner ? nextMove(block, program, hidden, context) : std::nullopt;
-    if (!next || hasAny(*next, "XYABCUVWIJKR", context))
+    if (!next)
       continue;
-    reporter.report({.message = fmt::format("{} has no second side: the next block does not move in X or Y",
-                                            context.quoted(corner->span())),
+    if (const Word *rapid = rapidIn(*next, context)) {
+      tellRapid(*corner, *rapid, context, reporter);
+      continue;
+    }
+    if (hasAny(*next, inPlane, context))
+      continue;
+    reporter.report({.message = fmt::format("{} has no second side: the next block does not move in {}",
+                                            context.quoted(corner->span()), isTurning ? "X or Z" : "X or Y"),
                      .span = corner->span(),
                      .labels = {{context.tree.blocks[*next].span(), "the next block"}},
                      .notes = {"the control puts a chamfer or a radius between two moves in the plane; without the "
@@ -67,8 +94,9 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule cornerWithoutSecondMove;
-const Rule cornerWithoutSecondMove{.info = {"corner-without-second-move", Category::Word, Severity::Warning,
-                                            "Reports `,C` or `,R` when the next block does not move in the plane."},
-                                   .hooks = {.program = check}};
+const Rule cornerWithoutSecondMove{
+    .info = {"corner-without-second-move", Category::Word, Severity::Warning,
+             "Reports `,C` or `,R` when the next block does not move in the plane, or is a `G00`."},
+    .hooks = {.program = check}};
 
 } // namespace feedhold::rules::corner_without_second_move
