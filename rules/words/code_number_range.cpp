@@ -20,10 +20,12 @@ struct Row {
   bool mayBeMissing;
   std::string_view numbers;
   std::string_view alarm;
+  double other = 0; // numbers from here on have meanings of their own
 };
 constexpr std::array kRows = {
     Row{80, CodeAction::Tolerance, 'P', {0, 1}, true, false, "P1 begins the mode, P0 ends it", "PS0109"},
     Row{300, CodeAction::SecondReference, 'P', {2, 4}, true, true, "P2, P3 or P4, or none for P2", "PS0046"},
+    Row{310, CodeAction::Skip, 'P', {1, 4}, true, true, "P1 to P4 name a skip signal", "PS0370", 90},
     Row{510, CodeAction::ScalingOn, 'P', {1e-9}, false, true, "the factor is not 0", "PS0142"},
 };
 
@@ -60,7 +62,8 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
                        .notes = {stops(*use->row)}});
     return;
   }
-  if (!word->isNumber() || use->row->allowed.contains(std::abs(word->number().toDouble())))
+  const double number = word->isNumber() ? std::abs(word->number().toDouble()) : 0;
+  if (!word->isNumber() || use->row->allowed.contains(number) || (use->row->other > 0 && number >= use->row->other))
     return;
   reporter.report(
       {.message = fmt::format("{} has no {}", context.quoted(use->code->span()), context.quoted(word->span())),
@@ -79,7 +82,7 @@ void checkComputed(const FlowFacts &facts, const FileContext &context, const Rep
     AllowedNumbers allowed = use->row->allowed;
     if (use->row->isWhole)
       allowed = {allowed.least - 0.5, std::nextafter(allowed.most + 0.5, 0)};
-    const Outside outside = outsideOf(*computed.value, allowed);
+    const Outside outside = use->row->other > 0 ? Outside::Never : outsideOf(*computed.value, allowed);
     if (outside == Outside::Never)
       continue;
     Diagnostic diagnostic{.message = fmt::format("{} {}, which {} does not have", context.quoted(computed.word->span()),

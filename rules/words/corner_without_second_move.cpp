@@ -1,9 +1,11 @@
 // corner-without-second-move: `Y10. ,C10.`, and the next block moves Z, or is a `G00`.
 #include "rules/motion/tool_sections.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace feedhold::rules::corner_without_second_move {
@@ -51,6 +53,26 @@ const Word *rapidIn(BlockId block, const FileContext &context) {
                                             : nullptr;
 }
 
+/// The last block of the contour of a turning cycle: PS0069.
+void tellLast(const Word &corner, const Contour &contour, const FileContext &context, const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("{} has no second side: the contour ends with this block", context.quoted(corner.span())),
+       .span = corner.span(),
+       .labels = {{contour.cycle->span, "its Q names this block"}},
+       .notes = {"the control stops with PS0069 (corner in the last block of a contour)",
+                 "write the move that goes on from the corner into the contour"}},
+      Severity::Error);
+}
+
+void checkContours(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  if (!context.dialect.hasFanucParameters || context.dialect.machine != MachineKind::Turning)
+    return;
+  std::set<BlockId> told; // G70 names the contour again
+  for (const Contour &contour : contoursOf(id, context))
+    if (const Word *corner = cornerIn(contour.last, context); corner && told.insert(contour.last).second)
+      tellLast(*corner, contour, context, reporter);
+}
+
 void tellRapid(const Word &corner, const Word &rapid, const FileContext &context, const Reporter &reporter) {
   reporter.report({.message = fmt::format("{} has no second side: the next block is a {}",
                                           context.quoted(corner.span()), context.quoted(rapid.span())),
@@ -68,6 +90,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const std::string_view inPlane = isTurning ? "XZACUVWIJKR" : "XYABCUVWIJKR";
   if (choosesPlane(program, context))
     return;
+  checkContours(id, context, reporter);
   const HiddenWork hidden(id, context);
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     const Word *corner = hidden.isIn(block) ? nullptr : cornerIn(block, context);

@@ -1,6 +1,7 @@
 // negative-number: `F-100.`, `M98 P1100 L-2`; `T#1` where #1 is -3.
 #include "rules/words/word_values.h"
 
+#include "rules/expressions/expression_view.h"
 #include "rules/words/block_words.h"
 
 #include <fmt/format.h>
@@ -60,7 +61,24 @@ std::string whatHappens(const Word &word, const FileContext &context, BlockId bl
   return maySkip(word, context, block) ? stops + ", or does not wait" : stops;
 }
 
+/// `Z--1.`: two signs and a number.
+bool hasTwoSigns(const Word &word, const FileContext &context) {
+  if (word.form() != WordForm::Expression)
+    return false;
+  const auto *sign = as<Negation>(context.tree, word.expression());
+  const auto *second = sign ? as<Negation>(context.tree, sign->operand) : nullptr;
+  return second && as<NumberLiteral>(context.tree, second->operand);
+}
+
 void checkLiteral(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (hasTwoSigns(word, context) && context.dialect.hasFanucParameters && !word.has(Word::kArgument)) {
+    reporter.report({.message = fmt::format("{} has two signs", context.quoted(word.span())),
+                     .span = word.span(),
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedMinus))}});
+    return;
+  }
+  if (kNeverNegative.find(word.address()) == std::string_view::npos)
+    return;
   if (context.dialect.grammar.oWords || !word.isNumber() || !word.number().isNegative() || word.number().isZero() ||
       !hasNoSign(word, context, block))
     return;
@@ -99,6 +117,6 @@ extern const Rule negativeNumber;
 const Rule negativeNumber{
     .info = {"negative-number", Category::Word, Severity::Error,
              "Reports a minus sign in a word that takes none, such as `F-100.` or `L-2`, also by way of a variable."},
-    .hooks = {.word = checkLiteral, .wordAddresses = kNeverNegative, .flow = checkComputed}};
+    .hooks = {.word = checkLiteral, .wordAddresses = "ABCDFGHIJKLMNPQRSTUVWXYZ", .flow = checkComputed}};
 
 } // namespace feedhold::rules::negative_number

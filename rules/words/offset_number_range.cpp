@@ -1,6 +1,7 @@
 // offset-number-range: `G10 L2 P7`, `G10 L20 P0`, `G54.1 P0`, `H5000`; `G10 L12 P1` without R.
 #include "rules/words/word_values.h"
 
+#include "rules/flow/system_variables.h"
 #include "rules/words/block_words.h"
 
 #include <fmt/format.h>
@@ -93,7 +94,11 @@ std::optional<OffsetWord> offsetWordOf(const Word &word, BlockId block, const Fi
                         !findCode(context.tree, block, context.dialect, CodeRole::CannedCycle) &&
                         !findCode(context.tree, block, context.dialect, CodeRole::Contour) &&
                         !findCode(context.tree, block, context.dialect, CodeRole::SubprogramCall);
-  return isNumber ? std::optional(toolOffset(word, 0, context)) : std::nullopt;
+  if (!isNumber)
+    return std::nullopt;
+  OffsetWord offset = toolOffset(word, 0, context);
+  offset.allowed.least = -std::numeric_limits<double>::infinity(); // negative-number tells of a sign
+  return offset;
 }
 
 std::vector<Label> labelOf(const OffsetWord &offset, const Word &word) {
@@ -148,6 +153,39 @@ void checkComputed(const FlowFacts &facts, const FileContext &context, const Rep
                           .notes = {consequence(*offset, word)}};
     reporter.report(std::move(diagnostic), outside == Outside::Always ? Severity::Error : Severity::Warning);
   }
+}
+
+/// `#2001=99999.`: PS0032 of FANUC controls, as at G10.
+void checkVariable(const Assignment &assignment, NodeId node, const FlowFacts &facts, const FileContext &context,
+                   const Reporter &reporter) {
+  const auto number = variableOf(facts, assignment.target);
+  const AbstractValue *value = facts.valueOf(assignment.value);
+  if (!number || !value || !isToolOffset(context, *number))
+    return;
+  const AllowedNumbers allowed{std::nextafter(-kOffsetBound, 0), std::nextafter(kOffsetBound, 0)};
+  const Outside outside = outsideOf(*value, allowed);
+  if (outside == Outside::Never)
+    return;
+  const Span span = context.tree.expressions[assignment.value].span;
+  const std::string seen = literalValue(context.tree, assignment.value)
+                               ? fmt::format("{} is", context.quoted(span))
+                               : fmt::format("{} {},", context.quoted(span), describeNumber(*value, allowed, outside));
+  reporter.report({.message = fmt::format("{} beyond the range of a tool offset", seen),
+                   .span = span,
+                   .labels = {{context.tree.expressions[assignment.target].span, "the offset"}},
+                   .flow = outside == Outside::Always ? pathFromEntry(facts, node) : std::vector<Label>{},
+                   .notes = {"the control stops with PS0032 (offset value too large)"}},
+                  outside == Outside::Always ? Severity::Error : Severity::Warning);
+}
+
+void checkFlow(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  checkComputed(facts, context, reporter);
+  if (!context.dialect.hasFanucParameters)
+    return;
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    if (facts.isReached(node))
+      for (const Assignment &assignment : assignmentsOf(facts, node))
+        checkVariable(assignment, node, facts, context, reporter);
 }
 
 /// `G10 L12 P1`, or with Z in the place of R.
@@ -219,6 +257,6 @@ const Rule offsetNumberRange{
         {"offset-number-range", Category::Word, Severity::Error,
          "Reports the number of a work offset or a tool offset that the control does not have, and a `G10` that gives "
          "a tool offset no value, or one beyond its range."},
-    .hooks = {.block = check, .word = checkLiteral, .wordAddresses = "DHPR", .flow = checkComputed}};
+    .hooks = {.block = check, .word = checkLiteral, .wordAddresses = "DHPR", .flow = checkFlow}};
 
 } // namespace feedhold::rules::offset_number_range

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace feedhold::rules::point_in_integer_word {
 namespace {
@@ -70,8 +71,26 @@ void reportDigits(const Word &word, const FileContext &context, const Reporter &
        .fixes = fixesFor(*digits)});
 }
 
+/// P of a call or of G10 on a FANUC control.  Not of a dwell: Haas controls read `G04 P1.5` as seconds, and their
+/// programs may be taken for those of a FANUC.
+void checkNumber(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  constexpr std::array kRoles = {CodeRole::SubprogramCall, CodeRole::MacroCall, CodeRole::ModalCall,
+                                 CodeRole::DataSetting};
+  const bool isNumber = std::ranges::any_of(
+      kRoles, [&](CodeRole role) { return findCode(context.tree, block, context.dialect, role) != nullptr; });
+  if (!context.dialect.hasFanucParameters || word.has(Word::kArgument) ||
+      context.tree.blocks[block].has(Block::kData) || !isNumber)
+    return;
+  reporter.report({.message = fmt::format("{} takes no decimal point", context.quoted(word.span())),
+                   .span = word.span(),
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))},
+                   .fixes = fixesFor(word, FixSafety::Safe)});
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
+  if (word.address() == 'P' && format.kind == AddressKind::Flexible && word.isNumber() && word.has(Word::kPoint))
+    return checkNumber(word, block, context, reporter);
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
       format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block) ||
       isMoveOfC(word, context, block) || continuesCycle(context, block))
