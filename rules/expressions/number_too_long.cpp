@@ -56,8 +56,11 @@ std::optional<double> lastOf(const Word &word, const FileContext &context, Block
 }
 
 void checkWord(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
-  const auto last = word.isNumber() ? lastOf(word, context, block) : std::nullopt;
-  if (last && std::abs(word.number().toDouble()) > *last)
+  const double number = word.isNumber() ? std::abs(word.number().toDouble()) : 0;
+  if (number <= std::min(kLastLength, kLastWhole) || hasTooManyWords(context, block))
+    return;
+  const auto last = lastOf(word, context, block);
+  if (last && number > *last)
     tooLong(word.span(), fmt::format("{} has more digits than the control reads", context.quoted(word.span())), context,
             reporter);
 }

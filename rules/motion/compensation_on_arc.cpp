@@ -37,11 +37,16 @@ bool hasAxis(const FileContext &context, BlockId block) {
   });
 }
 
+/// Another way leads to one of the blocks, the last included.
+bool isJumpedTo(BlockId first, BlockId last, const FileContext &context) {
+  return std::ranges::any_of(context.model.jumpTargetsOf(context.model.programOf(last)),
+                             [&](BlockId target) { return first <= target && target <= last; });
+}
+
 /// `G41 D1` in a block without a move: the arc behind it is the first one that the compensation has.
 const Word *loneStartBefore(const FileContext &context, BlockId arc) {
   const BlockId first = context.model.programs[context.model.programOf(arc)].first;
-  const auto targets = context.model.jumpTargetsOf(context.model.programOf(arc));
-  for (std::uint32_t i = arc.index(); i-- > first.index() && !targets.contains(BlockId(i + 1));) {
+  for (std::uint32_t i = arc.index(); i-- > first.index();) {
     const BlockId each(i);
     if (hasAxis(context, each) || !context.tree.statementsOf(each).empty() ||
         context.tree.blocks[each].has(Block::kBroken) || context.tree.blocks[each].has(Block::kSkip) ||
@@ -49,7 +54,7 @@ const Word *loneStartBefore(const FileContext &context, BlockId arc) {
         endIn(context, each))
       return nullptr;
     if (const Word *start = startIn(context, each))
-      return stateBefore(context, each) == false ? start : nullptr;
+      return stateBefore(context, each) == false && !isJumpedTo(each.next(), arc, context) ? start : nullptr;
   }
   return nullptr;
 }

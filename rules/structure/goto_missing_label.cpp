@@ -99,7 +99,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     const auto number = targetNumber(jump);
     if (!number || !inRange(context, *number))
       continue;
-    if (jump.kind == JumpKind::ReturnTo) {
+    if (jump.kind == JumpKind::ReturnTo && context.dialect.behaviour.returnTargetIsLocal) {
+      if (context.model.find(jump.program, *number).empty())
+        reporter.report(missing(jump, *number, context));
+    } else if (jump.kind == JumpKind::ReturnTo) {
       checkReturn(jump, *number, context, reporter);
     } else if (jump.kind == JumpKind::CallAt) {
       checkStart(jump, *number, context, reporter);

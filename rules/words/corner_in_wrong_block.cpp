@@ -1,5 +1,6 @@
 // corner-in-wrong-block: `G41 D1 X10. ,R3.`, `G32 Z-20. F1. ,C2.`.
 #include "rules/words/block_words.h"
+#include "rules/words/word_values.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ void tell(const Word &corner, const Word &code, std::string_view why, const File
 
 void check(const Word &corner, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (!corner.has(Word::kComma) || corner.has(Word::kArgument) || !context.dialect.hasFanucParameters ||
-      meansOwnWords(context, block))
+      hasTooManyWords(context, block) || meansOwnWords(context, block))
     return;
   if (const Word *code =
           findAction(context.tree, block, context.dialect,

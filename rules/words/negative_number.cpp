@@ -56,9 +56,16 @@ bool maySkip(const Word &word, const FileContext &context, BlockId block) {
   return word.address() == 'P' && has(context, block, {CodeRole::Dwell});
 }
 
+/// No manual of the other controls says that a speed has no sign.
+bool isSureToStop(const Word &word, const FileContext &context, BlockId block) {
+  return !maySkip(word, context, block) && (word.address() != 'S' || context.dialect.hasFanucParameters);
+}
+
 std::string whatHappens(const Word &word, const FileContext &context, BlockId block) {
   const std::string stops = fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedMinus));
-  return maySkip(word, context, block) ? stops + ", or does not wait" : stops;
+  if (maySkip(word, context, block))
+    return stops + ", or does not wait";
+  return isSureToStop(word, context, block) ? stops : stops + ", or turns the spindle the other way";
 }
 
 /// `Z--1.`: two signs and a number.
@@ -80,12 +87,12 @@ void checkLiteral(const Word &word, BlockId block, const FileContext &context, c
   if (kNeverNegative.find(word.address()) == std::string_view::npos)
     return;
   if (context.dialect.grammar.oWords || !word.isNumber() || !word.number().isNegative() || word.number().isZero() ||
-      !hasNoSign(word, context, block))
+      hasTooManyWords(context, block) || !hasNoSign(word, context, block))
     return;
   reporter.report({.message = fmt::format("{} takes no minus sign", context.quoted(word.span())),
                    .span = word.span(),
                    .notes = {whatHappens(word, context, block)}},
-                  maySkip(word, context, block) ? Severity::Warning : Severity::Error);
+                  isSureToStop(word, context, block) ? Severity::Error : Severity::Warning);
 }
 
 void checkComputed(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -106,7 +113,7 @@ void checkComputed(const FlowFacts &facts, const FileContext &context, const Rep
         .notes = {
             fmt::format("`{}` takes no minus sign: {}", word.address(), whatHappens(word, context, computed.block)),
             "correct the value, or check it before this block"}};
-    const bool isSure = outside == Outside::Always && !maySkip(word, context, computed.block);
+    const bool isSure = outside == Outside::Always && isSureToStop(word, context, computed.block);
     reporter.report(std::move(diagnostic), isSure ? Severity::Error : Severity::Warning);
   }
 }

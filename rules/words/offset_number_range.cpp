@@ -116,7 +116,7 @@ std::string consequence(const OffsetWord &offset, const Word &word) {
 bool isPlainValue(const Word &word) { return word.address() != 'R' || word.has(Word::kPoint); }
 
 void checkLiteral(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (!word.isNumber() || !isPlainValue(word))
+  if (!word.isNumber() || !isPlainValue(word) || hasTooManyWords(context, block))
     return;
   const auto offset = offsetWordOf(word, block, context);
   if (!offset || offset->allowed.contains(word.number().toDouble()))

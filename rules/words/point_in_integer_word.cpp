@@ -3,6 +3,7 @@
 
 #include "rules/words/block_words.h"
 #include "rules/words/letter_for_digit.h"
+#include "rules/words/word_values.h"
 
 #include <fmt/format.h>
 
@@ -89,7 +90,9 @@ void checkNumber(const Word &word, BlockId block, const FileContext &context, co
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
-  if (word.address() == 'P' && format.kind == AddressKind::Flexible && word.isNumber() && word.has(Word::kPoint))
+  const bool isPlain =
+      word.address() == 'P' && format.kind == AddressKind::Flexible && !hasTooManyWords(context, block);
+  if (isPlain && word.isNumber() && word.has(Word::kPoint))
     return checkNumber(word, block, context, reporter);
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
       format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block) ||

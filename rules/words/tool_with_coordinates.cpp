@@ -1,5 +1,5 @@
 // tool-with-coordinates: `G50 S2000 T0101`, `G04 X1. T0202` on a lathe.
-#include "rules/words/block_words.h"
+#include "rules/words/word_values.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,9 @@ constexpr std::array<std::uint16_t, 3> kCodes = {40, 100, 500}; // G04, G10, G50
 
 void check(const Word &tool, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.hasFanucParameters || context.dialect.machine != MachineKind::Turning ||
-      tool.has(Word::kArgument) || tool.has(Word::kComma) || context.tree.blocks[block].has(Block::kBroken) ||
-      context.tree.blocks[block].has(Block::kData) || context.dialect.switches.gCodeSystem != GCodeSystem::A)
+      hasTooManyWords(context, block) || tool.has(Word::kArgument) || tool.has(Word::kComma) ||
+      context.tree.blocks[block].has(Block::kBroken) || context.tree.blocks[block].has(Block::kData) ||
+      context.dialect.switches.gCodeSystem != GCodeSystem::A)
     return;
   for (const Word &word : context.tree.wordsOf(block)) {
     const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;

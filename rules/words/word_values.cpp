@@ -33,7 +33,7 @@ std::vector<ComputedWord> computedWordsOf(const FlowFacts &facts) {
   std::optional<BlockId> last; // several nodes may execute one block
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const BlockId block = facts.node(node).block;
-    if (!facts.isReached(node) || block == last)
+    if (!facts.isReached(node) || block == last || tree.wordsOf(block).size() > kMostWords)
       continue;
     last = block;
     for (const Word &word : tree.wordsOf(block)) {

@@ -36,6 +36,12 @@ std::vector<ComputedWord> computedWordsOf(const FlowFacts &facts);
 /// For Diagnostic::flow: how a run comes to a word that is always outside.
 std::vector<Label> pathOf(const FlowFacts &facts, const ComputedWord &computed, Outside outside);
 
+/// As in a file that has lost its line ends: rules that look at all words of a block for each of them leave it alone.
+inline constexpr std::size_t kMostWords = 100;
+inline bool hasTooManyWords(const FileContext &context, BlockId block) {
+  return context.tree.wordsOf(block).size() > kMostWords;
+}
+
 /// "is -3", "can be -3": of a computed word that is sometimes or always outside.
 std::string describeNumber(const AbstractValue &value, const AllowedNumbers &allowed, Outside outside);
 
