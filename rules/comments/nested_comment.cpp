@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <span>
 
 namespace feedhold::rules::nested_comment {
 namespace {
@@ -33,12 +34,35 @@ void unnest(const Parts &parts, const FileContext &context, FixIt &fix) {
       fix.edits.push_back({{parts.whole.begin + i, parts.whole.begin + i + 1}, ""});
 }
 
+/// `(A (B)` with nothing behind it: only an interpreter that stops at the inner `(` minds.
+void addAtEnds(std::vector<Parts> &found, NeverExecuted &never, const FileContext &context) {
+  const std::size_t known = found.size(); // in order of the text
+  for (const Comment &comment : context.tree.comments) {
+    const std::string_view text = context.text(comment.span);
+    const std::size_t open = comment.closed && text.starts_with('(') ? text.find('(', 1) : std::string_view::npos;
+    const bool isKnown = std::ranges::binary_search(std::span(found).first(known), comment.span.begin, {},
+                                                    [](const Parts &parts) { return parts.whole.begin; });
+    const BlockId block = context.tree.blockAt(comment.span.begin);
+    if (open == std::string_view::npos || isKnown || context.tree.blocks[block].has(Block::kAfterEnd) ||
+        never.contains(block))
+      continue;
+    const auto inside = static_cast<std::uint32_t>(comment.span.begin + open);
+    found.push_back({comment.span,
+                     {inside, inside + 1},
+                     {comment.span.end - 1, comment.span.end},
+                     {comment.span.end, comment.span.end}});
+  }
+  std::ranges::sort(found, {}, [](const Parts &parts) { return parts.whole.begin; });
+}
+
 std::vector<Parts> nestedIn(const FileContext &context) {
   NeverExecuted never(context);
   std::vector<Parts> found;
   for (const SyntaxIssue &issue : context.tree.issues)
     if (issue.kind == SyntaxIssueKind::NestedComment && !never.contains(context.tree.blockAt(issue.span.begin)))
       found.push_back(partsOf(issue, context));
+  if (context.dialect.grammar.oWords)
+    addAtEnds(found, never, context);
   return found;
 }
 

@@ -3,14 +3,39 @@
 
 #include "rules/expressions/expression_view.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace feedhold::rules::function_not_available {
 namespace {
 
+/// `SQR[..]` and `RND[..]`: short names that the control does not have.
+std::string_view shortNameOf(ExpressionId id, const FunctionCall &call, const FileContext &context) {
+  if (context.dialect.grammar.shortForms)
+    return {};
+  const std::string_view text = context.text(context.tree.expressions[id].span);
+  const auto startsWith = [&](std::string_view name) {
+    return text.size() > name.size() && std::ranges::equal(text.substr(0, name.size()), name, {},
+                                                           [](char each) { return static_cast<char>(each & ~0x20); });
+  };
+  if (call.function == FunctionKind::Round && startsWith("RND"))
+    return text.substr(0, 3);
+  const bool isShort = call.function == FunctionKind::Sqrt && startsWith("SQR") && !startsWith("SQRT");
+  return isShort ? text.substr(0, 3) : std::string_view{};
+}
+
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto *call = as<FunctionCall>(context.tree, id);
-  if (!call || findFunction(context.dialect, call->function))
+  if (!call)
+    return;
+  if (const std::string_view name = shortNameOf(id, *call, context); !name.empty())
+    return reporter.report(
+        {.message = fmt::format("{} does not have the function `{}`", context.dialect.id, name),
+         .span = context.tree.expressions[id].span,
+         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::FunctionNotUsable)),
+                   fmt::format("write `{}`", spellingOf(call->function))}});
+  if (findFunction(context.dialect, call->function))
     return;
   reporter.report(
       {.message = fmt::format("{} does not have the function `{}`", context.dialect.id, spellingOf(call->function)),

@@ -21,7 +21,35 @@ class ArcOutsidePlane final : public FlowRule {
 public:
   ArcOutsidePlane(ProgramId program, const FileContext &context) : view_(program, context) {}
 
+  /// Where the control surely stops at such a word, nothing comes behind it.
+  void before(NodeId node, const AbstractState &state) override {
+    if (view_.context().dialect.switches.besideCentreStops == Switch::On && !view_.sets(node, ModalKind::Plane))
+      note(node, state);
+  }
   void after(NodeId node, const AbstractState &state) override {
+    if (view_.context().dialect.switches.besideCentreStops != Switch::On || view_.sets(node, ModalKind::Plane))
+      note(node, state);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, plane] : places_) {
+      const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
+      const bool stops = context.dialect.switches.besideCentreStops == Switch::On;
+      if (!outside || (isZero(*outside) && !stops) || outside->form() == WordForm::Missing) // missing-value tells of it
+        continue;
+      reporter.report({.message = fmt::format("{} does not belong to an arc in `{}`, the active plane",
+                                              context.quoted(outside->span()), plane->code),
+                       .span = outside->span(),
+                       .flow = pathFromEntry(facts, node),
+                       .notes = {stops ? "the control stops with an error"
+                                       : "the control stops, or cuts the arc in the wrong plane",
+                                 "select the plane before the arc: G17, G18 or G19"}},
+                      stops ? Severity::Error : Severity::Warning);
+    }
+  }
+
+private:
+  void note(NodeId node, const AbstractState &state) {
     if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) || isHavocked(state))
       return;
     const PlaneLetters *plane = nullptr;
@@ -32,22 +60,6 @@ public:
     if (!isNew && at->second != plane)
       at->second = nullptr;
   }
-
-  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    for (const auto &[node, plane] : places_) {
-      const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
-      if (!outside || isZero(*outside) || outside->form() == WordForm::Missing) // missing-value tells of it
-        continue;
-      reporter.report({.message = fmt::format("{} does not belong to an arc in `{}`, the active plane",
-                                              context.quoted(outside->span()), plane->code),
-                       .span = outside->span(),
-                       .flow = pathFromEntry(facts, node),
-                       .notes = {"the control stops, or cuts the arc in the wrong plane",
-                                 "select the plane before the arc: G17, G18 or G19"}});
-    }
-  }
-
-private:
   const Word *findWordOf(NodeId node, char letter) const {
     for (const Word *word : view_.wordsOf(node))
       if (word->address() == letter && !word->has(Word::kComma))

@@ -31,14 +31,22 @@ public:
       incremental_.insert(node);
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    // Where the control surely stops at such an arc, nothing has moved.
+    for (const AlarmFact &alarm : facts.alarms())
+      if (alarm.kind == AlarmKind::ArcWithoutLength && alarm.always)
+        places_.emplace(alarm.node, true); // else it moves in some state
+    const bool stops = context.dialect.switches.pointArcStops == Switch::On;
     for (const auto &[node, stands] : places_) {
       const Word *arc = view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
       if ((stands || repeatsPosition(node)) && view_.mayHave(node, 'R'))
         reporter.report({.message = fmt::format("this {} with `R` ends where it starts, so it cuts no arc",
                                                 context.quoted(arc->span())),
                          .span = view_.blockSpan(node),
-                         .notes = {"R does not define a full circle; program it with I, J, K"}});
+                         .notes = {stops ? "the control stops with an error: R does not define a full circle; program "
+                                           "it with I, J, K"
+                                         : "R does not define a full circle; program it with I, J, K"}},
+                        stops ? Severity::Error : Severity::Warning);
     }
   }
 

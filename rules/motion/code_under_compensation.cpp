@@ -1,5 +1,6 @@
 // code-under-compensation: `G41 D1 ..`, and `G31` or another plane before any `G40`.
 #include "rules/motion/motion_view.h"
+#include "rules/motion/ngc_under_compensation.h"
 
 #include <fmt/format.h>
 
@@ -24,11 +25,10 @@ bool isPolarInterpolation(const Code &code) { return code.tenths == 121 || code.
 
 class CodeUnderCompensation final : public FlowRule {
 public:
-  CodeUnderCompensation(ProgramId program, const FileContext &context)
-      : view_(program, context), asked_(!context.dialect.grammar.oWords) {}
+  CodeUnderCompensation(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void before(NodeId node, const AbstractState &state) override {
-    if (!asked_ || !view_.mayHave(node, 'G') || view_.findAction(node, {CodeAction::CompensationOff}))
+    if (!view_.mayHave(node, 'G') || view_.findAction(node, {CodeAction::CompensationOff}))
       return;
     const bool isActive =
         !isHavocked(state) &&
@@ -80,11 +80,12 @@ private:
   }
 
   MotionView view_;
-  bool asked_;
   std::map<NodeId, Forbidden> places_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  if (context.dialect.behaviour.stopsAtStrayWords)
+    return watchNgc(program, context);
   return std::make_unique<CodeUnderCompensation>(program, context);
 }
 

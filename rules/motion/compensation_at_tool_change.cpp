@@ -16,6 +16,10 @@ public:
   void after(NodeId node, const AbstractState &state) override {
     if (!isAsked_ || !view_.mayHave(node, 'M') || !view_.findAction(node, {CodeAction::ToolChange}))
       return;
+    // LinuxCNC changes a number with M61, and no tool.
+    if (view_.context().dialect.behaviour.stopsAtStrayWords &&
+        view_.findAction(node, {CodeAction::ToolChange})->tenths() != 60)
+      return;
     const bool isOn = !isHavocked(state) && view_.surely(state, ModalKind::Compensation,
                                                          {CodeAction::CompensationLeft, CodeAction::CompensationRight});
     const auto [at, isNew] = seen_.emplace(node, isOn);
@@ -26,16 +30,18 @@ public:
     for (const auto &[node, isOn] : seen_) {
       if (!isOn)
         continue;
+      const bool stops = context.dialect.behaviour.stopsAtStrayWords;
       const Word *change = view_.findAction(node, {CodeAction::ToolChange});
       Diagnostic diagnostic{.message = fmt::format("{} changes the tool while cutter compensation is active",
                                                    context.quoted(change->span())),
                             .span = change->span(),
                             .flow = pathFromEntry(facts, node),
-                            .notes = {"the control stops, or moves the next tool by the radius of this one",
+                            .notes = {stops ? "the control stops with an error"
+                                            : "the control stops, or moves the next tool by the radius of this one",
                                       "cancel it with G40 in a move away from the part"}};
       if (const Word *start = startBefore(node))
         diagnostic.labels = {{start->span(), "started here"}};
-      reporter.report(std::move(diagnostic));
+      reporter.report(std::move(diagnostic), stops ? Severity::Error : Severity::Warning);
       return;
     }
   }

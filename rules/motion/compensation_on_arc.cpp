@@ -73,13 +73,48 @@ void checkBehindStart(const Word &arc, BlockId block, const FileContext &context
                              "write a G00 or G01 block before the arc"}});
 }
 
+/// The block of a G40 without a move, where nothing has moved since, by the text; LinuxCNC ends the compensation then.
+std::optional<BlockId> endBefore(const FileContext &context, BlockId arc) {
+  const BlockId first = context.model.programs[context.model.programOf(arc)].first;
+  for (std::uint32_t i = arc.index(); i-- > first.index();) {
+    const BlockId each(i);
+    const bool moves = std::ranges::any_of(context.tree.wordsOf(each), [](const Word &word) {
+      return std::string_view("XYZABCUVW@^").find(word.address()) != std::string_view::npos;
+    });
+    if (moves || !context.tree.statementsOf(each).empty() || context.tree.blocks[each].has(Block::kBroken) ||
+        !context.model.callsIn(each, each.next()).empty())
+      return std::nullopt;
+    if (endIn(context, each))
+      return each;
+  }
+  return std::nullopt;
+}
+
+void reportFirstMove(const Word &arc, BlockId block, const FileContext &context, const Reporter &reporter) {
+  const auto before = endBefore(context, block);
+  if (!before || stateBefore(context, *before) != true)
+    return;
+  const Word *end = endIn(context, *before);
+  reporter.report({.message = fmt::format("{} is the first move behind {}", context.quoted(arc.span()),
+                                          context.quoted(end->span())),
+                   .span = arc.span(),
+                   .labels = {{end->span(), "the compensation ends here"}},
+                   .notes = {"the control stops with an error: it needs a straight move for the compensation to end",
+                             "write a G00 or G01 block in front of the arc"}},
+                  Severity::Error);
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const Code *code = codeOf(word, context.dialect);
   const bool isArc =
       code && (code->action == CodeAction::ArcClockwise || code->action == CodeAction::ArcCounterclockwise);
-  if (!isArc || context.dialect.grammar.oWords)
-    return; // where subroutines are o-words, an arc may begin the compensation
-  const Word *start = startIn(context, block);
+  if (!isArc)
+    return;
+  // LinuxCNC may begin the compensation with an arc, and stops where one ends it.
+  const bool stops = context.dialect.behaviour.stopsAtStrayWords;
+  const Word *start = stops ? nullptr : startIn(context, block);
+  if (stops && !endIn(context, block))
+    return reportFirstMove(word, block, context, reporter);
   const Word *switching = start ? start : endIn(context, block);
   if (!switching)
     return checkBehindStart(word, block, context, reporter);
@@ -96,7 +131,8 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
                    .notes = {"the control stops with an alarm: it needs a straight move for the compensation to take "
                              "effect and to end",
                              start ? "write it in a G00 or G01 block before the arc"
-                                   : "write it in a G00 or G01 block behind the arc"}});
+                                   : "write it in a G00 or G01 block behind the arc"}},
+                  stops ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

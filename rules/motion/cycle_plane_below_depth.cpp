@@ -20,12 +20,12 @@ public:
 
   void after(NodeId node, const AbstractState &state) override {
     if (!asked_ || !view_.findAction(node, kCycles) ||
-        view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}) ||
+        (!stops() && view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ})) ||
         !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
       return;
     const Word *plane = find(node, 'R');
-    const Word *depth = find(node, 'Z');
-    if (plane && depth && plane->number() <= depth->number())
+    const Word *depth = find(node, depthAxis(state));
+    if (plane && depth && (stops() ? plane->number() < depth->number() : plane->number() <= depth->number()))
       found_.emplace(node, std::pair{plane, depth});
   }
 
@@ -36,12 +36,21 @@ public:
                                               context.quoted(depth->span())),
                        .span = plane->span(),
                        .labels = {{depth->span(), "the depth"}},
-                       .notes = {"the tool goes to R at rapid, so into the part, and feeds away from it",
-                                 "correct the sign or the value of R or Z"}});
+                       .notes = {stops() ? "the control stops with an error"
+                                         : "the tool goes to R at rapid, so into the part, and feeds away from it",
+                                 "correct the sign or the value of R or Z"}},
+                      stops() ? Severity::Error : Severity::Warning);
     }
   }
 
 private:
+  bool stops() const { return view_.context().dialect.behaviour.stopsAtStrayWords; }
+  /// Cycles drill along the normal of the plane where that is known to be so.
+  char depthAxis(const AbstractState &state) const {
+    return view_.surely(state, ModalKind::Plane, {CodeAction::PlaneZX})   ? 'Y'
+           : view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ}) ? 'X'
+                                                                          : 'Z';
+  }
   /// A number that the node executes.
   const Word *find(NodeId node, char address) const {
     for (const Word *word : view_.wordsOf(node))

@@ -16,6 +16,15 @@ class CycleWithoutDepth final : public FlowRule {
 public:
   CycleWithoutDepth(ProgramId program, const FileContext &context) : view_(program, context) {}
 
+  void before(NodeId node, const AbstractState &state) override {
+    if (!view_.findAction(node, kCycles))
+      return;
+    const auto isIn = [&](CodeAction plane) {
+      return view_.sets(node, ModalKind::Plane) ? view_.findAction(node, {plane}) != nullptr
+                                                : view_.surely(state, ModalKind::Plane, {plane});
+    };
+    depths_.emplace(node, isIn(CodeAction::PlaneZX) ? 'Y' : isIn(CodeAction::PlaneYZ) ? 'X' : 'Z');
+  }
   void after(NodeId node, const AbstractState &state) override {
     if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty())
       return;
@@ -31,22 +40,35 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    // Where the control surely stops, the analysis goes on as if the levels were there.
+    for (const AlarmFact &alarm : facts.alarms())
+      if (alarm.kind == AlarmKind::CycleWithoutLevel && alarm.always && view_.findAction(alarm.node, kCycles))
+        places_.emplace(alarm.node, Missing{!hasDepth(alarm.node), !view_.mayHave(alarm.node, 'R')});
     for (const auto &[node, missing] : places_) {
       if (!missing.depth && !missing.retract)
         continue;
+      const bool stops = context.dialect.behaviour.stopsAtStrayWords;
       const Word *cycle = view_.findAction(node, kCycles);
-      reporter.report({.message = fmt::format("{} has no {}", context.quoted(cycle->span()),
-                                              missing.depth && missing.retract ? "depth and no `R`"
-                                              : missing.depth                  ? "depth"
-                                                                               : "`R`"),
-                       .span = cycle->span(),
-                       .flow = pathFromEntry(facts, node),
-                       .notes = {"depth and R of an earlier cycle no longer apply: the control stops, or drills to 0",
-                                 "write the depth and R in the first block of the cycle"}});
+      reporter.report(
+          {.message = fmt::format("{} has no {}", context.quoted(cycle->span()),
+                                  missing.depth && missing.retract ? "depth and no `R`"
+                                  : missing.depth                  ? "depth"
+                                                                   : "`R`"),
+           .span = cycle->span(),
+           .flow = pathFromEntry(facts, node),
+           .notes = {stops ? "the control stops with an error: those of an earlier cycle no longer apply"
+                           : "depth and R of an earlier cycle no longer apply: the control stops, or drills to 0",
+                     "write the depth and R in the first block of the cycle"}},
+          stops ? Severity::Error : Severity::Warning);
     }
   }
 
 private:
+  /// Along the normal of the plane in force.
+  bool hasDepth(NodeId node) const {
+    const auto depth = depths_.find(node);
+    return depth != depths_.end() && view_.mayHave(node, depth->second);
+  }
   /// Else the levels are not followed.
   bool isPlaneKnown(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}) ||
@@ -76,6 +98,7 @@ private:
   };
   MotionView view_;
   std::map<NodeId, Missing> places_;
+  std::map<NodeId, char> depths_; // the axis of the depth
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -36,19 +36,22 @@ public:
            .flow = pathFromEntry(facts, node),
            .notes = {context.dialect.hasFanucParameters
                          ? "the control stops with PS0045 (address Q not found), or drills the hole in one go"
-                         : "the control stops, or drills the hole in one go",
-                     "write Q, or `G81` if the hole needs no pecks"}});
+                     : stops() ? "the control stops with an error"
+                               : "the control stops, or drills the hole in one go",
+                     "write Q, or `G81` if the hole needs no pecks"}},
+          stops() ? Severity::Error : Severity::Warning);
     }
   }
 
 private:
   static constexpr std::initializer_list<CodeAction> kPecks = {CodeAction::CyclePeck, CodeAction::CycleChipBreak};
 
+  bool stops() const { return view_.context().dialect.behaviour.stopsAtStrayWords; }
   const Word *depthOf(NodeId node) const { return findWord(view_.context().tree, view_.node(node).block, 'Q'); }
   /// Q, or the I, J, K of pecks that become smaller.
   bool hasDepth(NodeId node) const {
     if (const Word *depth = depthOf(node))
-      return !depth->isNumber() || !depth->number().isZero();
+      return !depth->isNumber() || (!depth->number().isZero() && (!stops() || depth->number().toDouble() > 0));
     return view_.mayHave(node, 'I') || view_.mayHave(node, 'J') || view_.mayHave(node, 'K') || view_.mayHave(node, 'D');
   }
   bool lacksDepth(NodeId node, const AbstractState &state) const {

@@ -27,14 +27,15 @@ public:
     const Word *feed = first_.node() ? lastFeed(facts) : nullptr;
     if (!feed)
       return;
+    const bool stops = context.dialect.behaviour.stopsAtStrayWords;
     const Word &word = *view_.modalMotionWords(*first_.node()).front();
     Diagnostic diagnostic{.message = fmt::format("the cutting move to {} has the feed 0", context.quoted(word.span())),
                           .span = word.span(),
                           .labels = {{feed->span(), "the feed"}},
-                          .notes = {fmt::format("the control {}, or waits without a move",
-                                                stopsWith(context.dialect, AlarmKind::ZeroFeed)),
+                          .notes = {fmt::format("the control {}{}", stopsWith(context.dialect, AlarmKind::ZeroFeed),
+                                                stops ? "" : ", or waits without a move"),
                                     "write the feed that is meant"}};
-    reporter.report(std::move(diagnostic));
+    reporter.report(std::move(diagnostic), stops ? Severity::Error : Severity::Warning);
   }
 
 private:

@@ -34,12 +34,15 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   const auto before = contentBefore(word, block, context);
   if (!before)
     return;
+  const bool stops = context.dialect.behaviour.stopsAtStrayWords;
   reporter.report(
       {.message = fmt::format("sequence number {} is not at the head of its block", context.quoted(word.span())),
        .span = word.span(),
        .labels = {{*before, "the block begins before it"}},
-       .notes = {"whether a jump finds the block depends on the control",
-                 "put it first, or on a new line if the line end was lost"}});
+       .notes = {stops ? "the control stops with an error: bad character"
+                       : "whether a jump finds the block depends on the control",
+                 "put it first, or on a new line if the line end was lost"}},
+      stops ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

@@ -48,7 +48,7 @@ bool isWholeProgram(const FileContext &context, const Program &program) {
       changesTool = changesTool || (code && code->action == CodeAction::ToolChange);
       moves = moves || (changesTool && axisOf(word.address()));
     }
-  return moves && context.dialect.grammar.sequenceJumps;
+  return moves;
 }
 
 /// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.

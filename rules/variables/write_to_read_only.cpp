@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <string>
 
 namespace feedhold::rules::write_to_read_only {
 namespace {
@@ -11,7 +12,25 @@ std::string contents(const VariableRange &range) {
   return range.meaning.empty() ? std::string("it is read-only") : fmt::format("it holds: {}", range.meaning);
 }
 
+/// `#<_x> = 4`: case and blanks do not matter.
+void checkName(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
+  const Expression &expression = context.tree.expressions[use.expression];
+  const auto *named = use.write ? std::get_if<NamedVariable>(&expression.node) : nullptr;
+  if (!named || context.dialect.readOnlyNames.empty())
+    return;
+  std::string name;
+  for (const char each : context.text(named->name))
+    if (each != ' ' && each != '\t' && each != '<' && each != '>')
+      name += static_cast<char>('A' <= each && each <= 'Z' ? each - 'A' + 'a' : each);
+  if (std::ranges::binary_search(context.dialect.readOnlyNames, name))
+    reporter.report({.message = fmt::format("{} can only be read, not written", context.quoted(expression.span)),
+                     .span = expression.span,
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),
+                               "it has a meaning of its own: choose another name"}});
+}
+
 void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
+  checkName(use, context, reporter);
   const VariableRange *range = use.write && use.number ? findVariable(context.dialect, *use.number) : nullptr;
   if (!range || range->access != VariableAccess::ReadOnly || range->kind == VariableKind::Vacant)
     return;

@@ -38,7 +38,8 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
        .span = centre->span(),
        .labels = {{arc->span(), "of this arc"}},
        .notes = {"I, J and K are the way from the start of the arc to its centre",
-                 "write that way, or the radius as `R`"}});
+                 "write that way, or the radius as `R`"}},
+      context.dialect.behaviour.stopsAtStrayWords ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

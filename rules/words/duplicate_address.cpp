@@ -11,7 +11,13 @@
 namespace feedhold::rules::duplicate_address {
 namespace {
 
+bool isSign(char address, const FileContext &context) {
+  return context.dialect.grammar.signAddresses.find(address) != std::string_view::npos;
+}
+
 bool counts(const Word &word, const FileContext &context) {
+  if (isSign(word.address(), context))
+    return true;
   return word.address() != 'G' && word.address() != 'M' && !word.has(Word::kComma) && !word.has(Word::kAfterThen) &&
          !word.has(Word::kAfterSkip) && formatOf(context.dialect, word.address()).kind != AddressKind::None;
 }
@@ -37,17 +43,22 @@ void reportPair(const Word &first, const Word &second, const FileContext &contex
       alarm ? Severity::Error : Severity::Warning);
 }
 
+/// LinuxCNC refuses it beside `G10` and `M6`, too.
+bool isRefused(BlockId block, const FileContext &context) {
+  return context.dialect.behaviour.stopsAtStrayWords && context.model.callsIn(block, block.next()).empty();
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto words = context.tree.wordsOf(block);
   if (words.size() < 2 || context.tree.blocks[block].has(Block::kData))
     return;
-  std::array<const Word *, 26> seen{};
+  std::array<const Word *, 128> seen{};
   for (const Word &word : words) {
     if (!counts(word, context)) // a `<NAME>` has no letter
       continue;
-    const Word *&first = seen[static_cast<std::size_t>(word.address() - 'A')];
+    const Word *&first = seen[static_cast<std::size_t>(word.address() & 0x7f)];
     if (first) {
-      if (!meansOwnWords(context, block) && !namesNextTool(words, word))
+      if (isRefused(block, context) || (!meansOwnWords(context, block) && !namesNextTool(words, word)))
         reportPair(*first, word, context, reporter);
       return;
     }

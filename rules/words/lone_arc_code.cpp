@@ -66,21 +66,27 @@ const Word *radiusAlone(const FileContext &context, BlockId block) {
 }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const bool stops = context.dialect.behaviour.stopsAtStrayWords; // at any arc without an end or a centre
   if (const Word *radius = radiusAlone(context, block)) {
     reporter.report(
         {.message = fmt::format("the arc with {} has no end point, so nothing moves", context.quoted(radius->span())),
          .span = radius->span(),
-         .notes = {"a radius needs an end point: `X` and `Y`, or those of the plane in force"}});
+         .notes =
+             {stops ? "the control stops with an error: a radius needs an end point, by the axes of the plane in force"
+                    : "a radius needs an end point: `X` and `Y`, or those of the plane in force"}},
+        stops ? Severity::Error : Severity::Warning);
     return;
   }
   const Word *arc = loneArc(context, block);
-  if (!arc || isForLaterBlocks(context, block))
+  if (!arc || (!stops && isForLaterBlocks(context, block)))
     return;
   reporter.report(
       {.message = fmt::format("{} has no end point and no centre, so nothing moves", context.quoted(arc->span())),
        .span = arc->span(),
-       .notes = {"the arc mode stays in force for the coordinates of later blocks",
-                 "check whether another code was meant, such as G20, G28 or M03; else delete it"}});
+       .notes = {stops ? "the control stops with an error"
+                       : "the arc mode stays in force for the coordinates of later blocks",
+                 "check whether another code was meant, such as G20, G28 or M03; else delete it"}},
+      stops ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

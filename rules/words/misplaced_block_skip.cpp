@@ -19,11 +19,15 @@ bool isBeforeProse(const SyntaxIssue &issue, const FileContext &context) {
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isBeforeProse(issue, context))
     return;
+  const bool stops = context.dialect.behaviour.stopsAtStrayWords;
   reporter.report(
       {.message = "block skip within a block",
        .span = issue.span,
-       .notes = {"with the switch on, the words before it are still executed; some machines skip the whole block",
-                 "put the `/` at the head of the block, or split the block"}});
+       .notes = {stops
+                     ? "the control stops with an error: bad character"
+                     : "with the switch on, the words before it are still executed; some machines skip the whole block",
+                 "put the `/` at the head of the block, or split the block"}},
+      stops ? Severity::Error : Severity::Info);
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MisplacedBlockSkip};

@@ -27,7 +27,8 @@ void check(const Word &radius, BlockId block, const FileContext &context, const 
                    .notes = {context.dialect.grammar.oWords
                                  ? "the control stops with an error: an arc has either a radius or a centre"
                                  : "the control takes the radius, and the centre has no effect",
-                             "delete the one that is not meant"}});
+                             "delete the one that is not meant"}},
+                  context.dialect.grammar.oWords ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

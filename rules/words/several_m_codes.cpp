@@ -3,15 +3,43 @@
 #include "language/model/word_habits.h"
 #include "rules/words/block_words.h"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace feedhold::rules::several_m_codes {
 namespace {
 
+/// LinuxCNC takes one M code of each of its groups.
+bool checkGroups(BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (!context.dialect.behaviour.stopsAtStrayWords || context.tree.blocks[block].has(Block::kBroken))
+    return false;
+  std::array<const Word *, 16> ofGroup{};
+  for (const Word &word : context.tree.wordsOf(block)) {
+    const Code *code = word.address() == 'M' ? codeOf(word, context.dialect) : nullptr;
+    if (!code || code->group == 0 || code->group >= ofGroup.size())
+      continue;
+    const Word *&first = ofGroup[code->group];
+    if (first) {
+      reporter.report({.message = fmt::format("{} and {} exclude each other: both are in one group of M codes",
+                                              context.quoted(first->span()), context.quoted(word.span())),
+                       .span = word.span(),
+                       .labels = {{first->span(), "the first one"}},
+                       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress)),
+                                 "put each of them in a block of its own"}},
+                      Severity::Error);
+      return true;
+    }
+    first = &word;
+  }
+  return false;
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto [first, last, count] = mCodesOf(context.tree, block);
   const std::size_t mostEver = context.dialect.limits.mCodes;
   const Switch setting = context.dialect.switches.m3b;
+  if (count >= 2 && checkGroups(block, context, reporter))
+    return;
   if (count < 2 || (setting == Switch::On && count <= mostEver) || passesArguments(context, block))
     return;
   const bool sure = setting == Switch::Off || count > mostEver;

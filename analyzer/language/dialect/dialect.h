@@ -164,6 +164,7 @@ struct Limits {
   std::uint8_t ijkSets = 10;
   std::uint8_t mCodes = 3;             // in a block, where a setting allows several
   std::uint8_t programNameLength = 32; // of `<NAME>`
+  std::uint16_t lineLength = 0;        // of a line with its remarks; 0: any
 };
 
 /// A switch whose setting on the machine is not known stays Unknown: both outcomes are possible.
@@ -401,6 +402,7 @@ struct Dialect {
   NumberModel numbers = NumberModel::Binary64; // unless f16 is on
   bool hasFanucParameters = false; // the numbers beside Switches are those of its manual, so messages name them
   std::span<const LanguageHint> hints;
+  std::span<const std::string_view> readOnlyNames = {}; // `#<_x>`: sorted, in small letters
 };
 
 constexpr std::uint32_t kVacantVariable = 0;
