@@ -8,7 +8,7 @@
 //   ,C c   from c before the corner, along the first line, to c behind it
 //   ,R r   an arc that is tangent to both; it takes r * tan(half the turn) from each
 //
-// FANUC 30i B-64484EN/03 4.9, 0i-D B-64304EN/02 (T) 5.4; Mitsubishi M70 13.6; Haas mill operator's manual, G01.
+// Evidence: parity.md of each dialect.
 #pragma once
 
 #include "meaning/semantics/coordinates.h"
@@ -55,7 +55,8 @@ public:
     const auto isBeside = [&](Axis axis) { return axis != plane->first && axis != plane->second && namesAxis(axis); };
     return plane && std::ranges::none_of(kAllAxes, isBeside) && (namesAxis(plane->first) || namesAxis(plane->second)) &&
            !interpretation_.mayBe(state_.transformed) && !interpretation_.mayBe(otherGeometry(context_)) &&
-           !isOpenTarget(context_, words_) && !mayCompensate(context_);
+           !isOpenTarget(context_, words_) && !mayCompensate(context_) &&
+           state_.modalCalls.empty() && !interpretation_.mayBe(state_.modalCallsUnknown);
   }
 
   /// The word of the block, if it has one and no other with a comma.
@@ -102,12 +103,13 @@ public:
       return interpretation_.compare(Relation::Less, way.length, cut ? *cut : context_.zero());
     };
     const Truth tooLarge = context_.either(shorter(before), shorter(behind));
-    interpretation_.alarm(cut ? tooLarge : interpretation_.unknownTruth(),
+    interpretation_.alarm(cut ? tooLarge : context_.maybeNot(),
                           {AlarmKind::CornerTooLarge, context_.place()});
     const Point start = with(plane, corner, waiting.start);
     if (interpretation_.stopped())
       return corner;
     if (!cut) {
+      interpretation_.unmodelled("a rounding between lines that may go straight on or back", context_.place());
       tellMove(MoveKind::Unmodelled, start, corner);
       return corner;
     }

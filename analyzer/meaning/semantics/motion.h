@@ -29,7 +29,8 @@ public:
       : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
 
   void run() {
-    if (!endsCorner() && (!words_.entries.empty() || !words_.codes.empty()))
+    const bool isEmpty = words_.entries.empty() && words_.codes.empty();
+    if (!isEmpty && interpretation_.mayBe(waitsForLine(context_)) && !endsCorner())
       loseCorner(context_);
     const bool others = namesOtherAxes();
     const Point before = others ? state_.position : Point{};
@@ -309,6 +310,8 @@ private:
     if constexpr (requires { requires R::kAsksForKindsAlone; })
       return false;
     const bool waits = interpretation_.mayBe(waitsForLine(context_));
+    if (!waits && !hasCommaWord())
+      return false;
     const Word *word = corners_.word();
     if ((!waits && !word) || !context_.certain(holds) || !isLineAtFeed() || !corners_.isLine()) {
       loseCorner(context_);
