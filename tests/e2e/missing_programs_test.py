@@ -32,6 +32,16 @@ IF[#500EQ3]GOTO10
 M30
 N10#3000=3(THREE)
 """ + CALLED
+AROUND_CALL = """O1
+#100=0
+WHILE[#100LT5]DO1
+M98P8000
+#100=#100+1
+END1
+IF[#100EQ5]GOTO10
+#3000=1(COUNT CHANGED)
+N10 M30
+"""
 
 
 class MissingPrograms(Scratch):
@@ -53,6 +63,20 @@ class MissingPrograms(Scratch):
         changed = rows["O1.alarm-unreachable.L5"]
         self.assertEqual(changed["verdict"], "unknown")  # the macro may change #500, its passing over does not
         self.assertFalse([row for row in rows.values() if row["line"] == 3])
+
+    def test_counter_that_a_missing_program_may_change(self):
+        self.write("O1.nc", AROUND_CALL)
+        rows = self.obligations("O1.nc")
+        for row in ("O1.loop-ends.L3", "O1.program-ends"):
+            self.assertEqual((rows[row]["verdict"], rows[row]["ifReturning"], rows[row]["ifUnchanged"]),
+                             ("proved", ["O8000"], True), row)
+        # whatever else is read behind the call may be its result
+        self.assertEqual(rows["O1.alarm-unreachable.L8"]["verdict"], "unknown")
+        self.assertIn("if O8000 returns and changes nothing, which is not in the files",
+                      self.feedhold("prove", "--verbose", "O1.nc").stdout)
+        for missing, verdict in (("stop", "proved"), ("havoc", "unknown")):
+            row = self.obligations("--missing", missing, "O1.nc")["O1.program-ends"]
+            self.assertEqual((row["verdict"], row["ifUnchanged"]), (verdict, False), missing)
 
     def test_code_that_the_control_does_not_have_stops(self):
         self.write("O1.nc", UNLISTED)

@@ -1,4 +1,6 @@
-"""What the program of the page says, under Node.js, compared with the packaged one byte for byte."""
+"""What the program of the page says, under Node.js, compared with the packaged one: byte for byte, but for proofs.  The
+page is built with another compiler, which evaluates arguments in another order and so numbers terms differently: where
+a search ends without an answer, the other may find one."""
 import json
 import re
 import shutil
@@ -13,6 +15,12 @@ NUMBER = re.compile(r"\bO(\d+)", re.IGNORECASE)
 FOLDER = re.compile(r"/work(?![\w.-])")  # of the programs, in the page
 PACKAGES = ROOT / "corpus/packages"
 PROVED = ["mould-entry/O9115.nc", "pocket/O9313.nc", "set-up/O9700.nc", "ims/O0142.nc", "slope/O9415.nc"]
+
+DECIDED = ("proved", "refuted", "unreachable")
+
+
+def verdicts_of(output):
+    return {(row["kind"], row["id"]): row["verdict"] for file in json.loads(output)["files"] for row in file["obligations"]}
 
 
 class Outputs(Packaged):
@@ -29,12 +37,15 @@ class Outputs(Packaged):
         self.assertEqual(told.returncode, 0, told.stderr)
         return json.loads(told.stdout)
 
+    def packaged(self, words):
+        return subprocess.run([linux_program(), *words], cwd=self.work, env={"PATH": "/nowhere", "HOME": "/nowhere"},
+                              capture_output=True, timeout=600, stdin=subprocess.DEVNULL)
+
     def compare(self, *requests):
         """Both programs say the same; what it was."""
         said = []
         for words, ours in zip(requests, self.in_page(*requests)):
-            theirs = subprocess.run([linux_program(), *words], cwd=self.work, env={"PATH": "/nowhere", "HOME": "/nowhere"},
-                                    capture_output=True, timeout=600, stdin=subprocess.DEVNULL)
+            theirs = self.packaged(words)
             with self.subTest(words=words):
                 self.assertNotIn("fault", ours)
                 self.assertEqual(FOLDER.sub(str(self.work), ours["output"]), theirs.stdout.decode())
@@ -66,11 +77,18 @@ class Outputs(Packaged):
     def test_proofs(self):
         for name in PROVED:
             shutil.copy(PACKAGES / name, self.work)
-        names = [name.split("/")[1] for name in PROVED]
-        said = self.compare(*(["prove", "--no-cache", "--format", "json", name] for name in names))
-        verdicts = {obligation["verdict"] for text in said for file in json.loads(text)["files"]
-                    for obligation in file["obligations"]}
-        self.assertLessEqual({"proved", "refuted"}, verdicts)
+        requests = [["prove", "--no-cache", "--format", "json", name.split("/")[1]] for name in PROVED]
+        verdicts = []
+        for words, ours in zip(requests, self.in_page(*requests)):
+            theirs = self.packaged(words)
+            with self.subTest(words=words):
+                ours, theirs = verdicts_of(ours["output"]), verdicts_of(theirs.stdout)
+                self.assertEqual(ours.keys(), theirs.keys())
+                verdicts += [(ours[row], theirs[row]) for row in ours]
+        self.assertLessEqual({("proved", "proved"), ("refuted", "refuted")}, set(verdicts))
+        self.assertLessEqual({one for one in verdicts if "unknown" not in one}, {(each, each) for each in DECIDED})
+        decided = [one for one in verdicts if one[1] in DECIDED]
+        self.assertGreater(sum(ours in DECIDED for ours, _ in decided), 0.9 * len(decided))
 
     def test_self_check(self):
         said = self.compare(["self-check"], ["--version"], ["dialects", "--format", "json"])

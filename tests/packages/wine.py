@@ -47,16 +47,23 @@ def made_place():
         archive.extractall(top)
     place = Place(top / "wine", next(top.glob("*/feedhold.exe")), packaged.linux_program())
     atexit.register(at_server, place, "-k")
-    # For all runs: one that a run starts keeps the pipes of that run open, and the run seems not to end.
+    # Makes drive C:.  Then a server and services for all runs: those that a run starts keep its pipes open, and the run
+    # seems not to end.
+    nothing = (WINE, "cmd.exe", "/c", "exit")
+    quietly(place, *nothing)
+    at_server(place, "-w")
     at_server(place, "-p")
-    subprocess.run([WINE, "cmd.exe", "/c", "exit"], env=place.environment, capture_output=True, check=True,
-                   timeout=LONGEST_RUN)
+    quietly(place, *nothing)
     return place
 
 
 def at_server(place, option):
-    subprocess.run([Path(WINE).with_name("wineserver"), option], env=place.environment, stdin=subprocess.DEVNULL,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    quietly(place, Path(WINE).with_name("wineserver"), option)
+
+
+def quietly(place, *command):
+    subprocess.run(command, env=place.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL, timeout=LONGEST_RUN)
 
 
 class Windows(Packaged):

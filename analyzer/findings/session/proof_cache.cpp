@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kFormat = "feedhold proof 7";
+constexpr std::string_view kFormat = "feedhold proof 8";
 /// Of the 256 folders: together 131072 proofs of some kilobytes each.
 constexpr std::size_t kMostInFolder = 512;
 
@@ -98,8 +98,8 @@ std::string proverOf(const ProofCache &cache) {
 std::string proofKey(std::string_view prover, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
-  const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses, contractsOf] =
-      options;
+  const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses,
+               missingChangeNothing, contractsOf] = options;
   static_cast<void>(contractsOf);
   const auto &[search, z3, cvc5] = budget;
   Material material;
@@ -113,7 +113,7 @@ std::string proofKey(std::string_view prover, const Project &programs, ProgramId
   for (const std::uint64_t number :
        {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards), static_cast<std::uint64_t>(arithmetic),
         static_cast<std::uint64_t>(missing), static_cast<std::uint64_t>(mayTakeFewPasses),
-        static_cast<std::uint64_t>(takesFewPasses)})
+        static_cast<std::uint64_t>(takesFewPasses), static_cast<std::uint64_t>(missingChangeNothing)})
     material.add(number);
   material.add(program.index());
   addFiles(material, programs);

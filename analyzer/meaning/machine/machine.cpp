@@ -70,6 +70,8 @@ private:
     ++result_.steps;
     const Place here = at_;
     const Node &current = node();
+    if (auto ctx = context(); endsCorner(ctx, current.instruction))
+      loseCorner(ctx);
     const std::optional<NodeId> next = match(
         current.instruction, [&](const BlockSkip &skip) { return follow(skip, current); },
         [&](const Test &test) { return follow(test, current); },

@@ -39,6 +39,13 @@ template <ValueAlgebra R> struct StepContext {
     return either(anyOf(all.first(half), truthOf), anyOf(all.subspan(half), truthOf));
   }
   bool certain(Truth truth) const { return !interpretation.mayBe(interpretation.negation(truth)); }
+  /// By whatever the interpretation can prove: for what is asked seldom.
+  bool proved(Truth truth) const {
+    if constexpr (requires { interpretation.proves(truth); })
+      return certain(truth) || interpretation.proves(truth);
+    else
+      return certain(truth);
+  }
   Value zero() const { return interpretation.number(0); }
   /// A setting of the machine.
   Truth isOn(Switch Switches::*setting) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/arcs.h"
+#include "meaning/semantics/corners.h"
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
 #include "meaning/semantics/offsets.h"
@@ -28,6 +29,9 @@ public:
       : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
 
   void run() {
+    const bool isEmpty = words_.entries.empty() && words_.codes.empty();
+    if (!isEmpty && interpretation_.mayBe(waitsForLine(context_)) && !endsCorner())
+      loseCorner(context_);
     const bool others = namesOtherAxes();
     const Point before = others ? state_.position : Point{};
     act();
@@ -283,13 +287,41 @@ private:
       return tell(context_, hasOtherWay() ? MoveKind::Unmodelled : MoveKind::Feed, start);
     if (interpretation_.mayBe(arc))
       Arcs<R>(context_, words_, hasOtherWay()).follow(start, arc, interpretation_.both(arc, holds));
-    if (!context_.certain(arc) && interpretation_.wantsMoves())
+    if (!context_.certain(arc) && interpretation_.wantsMoves() && !followCorners(start, holds))
       tellLine(start);
     if (!interpretation_.mayBe(turning))
       return;
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
     forgetCycle(context_);
+  }
+  // ---- corners (corners.h) ----
+
+  bool isLineAtFeed() {
+    return context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::Linear}, interpretation_.truth(false))) &&
+           !words_.has(CodeAction::OtherCurve) && !hasCommaWord("A") && !hasLatheCorner(false);
+  }
+  bool endsCorner() {
+    return !ownWords() && context_.certain(axisWords()) && !interpretation_.mayBe(cycleActive()) && isLineAtFeed() &&
+           (!hasCommaWord() || corners_.word()) && corners_.isLine();
+  }
+  /// Tells the line from `start`, or lets it wait.  False: it is none beside a corner that is followed.
+  bool followCorners(const Point &start, Truth holds) {
+    if constexpr (requires { requires R::kAsksForKindsAlone; })
+      return false;
+    const bool waits = interpretation_.mayBe(waitsForLine(context_));
+    if (!waits && !hasCommaWord())
+      return false;
+    const Word *word = corners_.word();
+    if ((!waits && !word) || !context_.certain(holds) || !isLineAtFeed() || !corners_.isLine()) {
+      loseCorner(context_);
+      return false;
+    }
+    const Point from = waits ? corners_.complete(start) : start;
+    if (interpretation_.stopped() || (word && corners_.wait(*word, from)))
+      return true;
+    tell(context_, hasCommaWord() ? MoveKind::Unmodelled : MoveKind::Feed, from);
+    return true;
   }
   /// A run whose position was lost knows it again on the axes that a coordinate names.
   void placeAxes() {
@@ -477,6 +509,7 @@ private:
   R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
+  Corners<R> corners_{context_, words_};
 };
 
 } // namespace detail

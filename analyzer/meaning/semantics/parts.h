@@ -39,6 +39,9 @@ enum class Part : std::uint8_t {
   RotationCentre,
   PendingCoordinate,
   OtherMapping,
+  CornerChamfer,
+  CornerRadius,
+  CornerStart,
   Transformed,
   Spindle,
   ModalCallRepeats,
@@ -106,8 +109,11 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::CycleDwell: return {PartDomain::Value, PartEntry::Unknown, PartHavoc::Anything, PartNeutral::Vacant};
   case Part::Scale: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::One};
   case Part::RotationAngle: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Zero};
+  case Part::CornerStart:
   case Part::ScaleCentre: // a centre outlasts its mapping
   case Part::RotationCentre: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
+  case Part::CornerChamfer: // what ends without a line, and is not followed, ends a corner
+  case Part::CornerRadius:
   case Part::MirrorAt:
   case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
   case Part::LengthChanged:
@@ -197,16 +203,16 @@ template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
     auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
-           cycle, transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters, savedCodes,
-           savedWords, restoresModes] = whole;
+           cycle, transform, corner, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters,
+           savedCodes, savedWords, restoresModes] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(havocked), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
         is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
-        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), is<Part::Transformed>(transformed),
-        is<Part::Spindle>(spindle), nested(modalCalls), is<Part::OtherModalCalls>(modalCallsUnknown),
-        is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters), is<Part::SavedCode>(savedCodes),
-        is<Part::SavedWord>(savedWords), is<Part::RestoresModes>(restoresModes));
+        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), nested(corner),
+        is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
+        is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters),
+        is<Part::SavedCode>(savedCodes), is<Part::SavedWord>(savedWords), is<Part::RestoresModes>(restoresModes));
   } else if constexpr (kIsA<S, CycleState>) {
     auto &[bottom, retract, initial, peck, dwell] = whole;
     return std::tuple(is<Part::CycleBottom>(bottom), is<Part::CycleRetract>(retract), is<Part::CycleInitial>(initial),
@@ -216,6 +222,9 @@ template <typename Struct> auto membersOf(Struct &whole) {
     return std::tuple(is<Part::Scale>(scale), is<Part::ScaleCentre>(scaleCentre), is<Part::MirrorAt>(mirrorAt),
                       is<Part::RotationAngle>(angle), is<Part::RotationCentre>(centre),
                       is<Part::PendingCoordinate>(pending), is<Part::OtherMapping>(other));
+  } else if constexpr (kIsA<S, CornerState>) {
+    auto &[chamfer, radius, start] = whole;
+    return std::tuple(is<Part::CornerChamfer>(chamfer), is<Part::CornerRadius>(radius), is<Part::CornerStart>(start));
   } else {
     static_assert(kIsA<S, ModalCallState>, "a struct of the state without a list of its members");
     auto &[file, call, repeats, locals] = whole;

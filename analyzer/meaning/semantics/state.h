@@ -95,6 +95,14 @@ template <typename Value> struct TransformState {
   friend bool operator==(const TransformState &, const TransformState &) = default;
 };
 
+/// A line with `,C` or `,R` that waits for the next one (corners.h).
+template <typename Value> struct CornerState {
+  Value chamfer; // one of the two; vacant: the other, or no line waits
+  Value radius;
+  std::array<Value, 2> start; // of the line, in the plane
+  friend bool operator==(const CornerState &, const CornerState &) = default;
+};
+
 /// A macro that is called after each movement (G66) or at each block (G66.1).
 template <typename Value> struct ModalCallState {
   std::uint32_t file;                            // of the block with G66
@@ -134,6 +142,7 @@ template <typename R> struct MachineState {
   Truth axisTurned;                            // an axis other than X, Y, Z has been moved since the start
   CycleState<Value> cycle;
   TransformState<Value> transform;
+  CornerState<Value> corner;
   Truth transformed;                             // a mapping beside those at the start of the run is or may be in force
   ModalCode spindle;                             // index into kSpindleActions
   std::vector<ModalCallState<Value>> modalCalls; // innermost last

@@ -13,6 +13,12 @@ namespace feedhold {
 /// returns, ends) change nothing here.
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words);
 
+/// Whether a corner waits (corners.h), and the instruction is no block that may have the line behind it.
+template <ValueAlgebra R> bool endsCorner(StepContext<R> &context, const Instruction &instruction) {
+  return !std::holds_alternative<ExecuteWords>(instruction) && !std::holds_alternative<BlockSkip>(instruction) &&
+         context.interpretation.mayBe(waitsForLine(context));
+}
+
 /// Whether the block that has just been executed moved an axis: a modal macro is called then.
 template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words);
 

@@ -201,6 +201,7 @@ PathOffset ProofStart::rangeOf(const RadiusOffset &offset, TermId number) {
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
   options.missing = subject.options.missing;
+  options.missingChangeNothing = subject.options.missingChangeNothing;
   options.takesFewPasses = subject.options.takesFewPasses;
   const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
   options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };

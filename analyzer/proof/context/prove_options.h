@@ -18,7 +18,9 @@ struct ProveOptions {
   MissingPrograms missing = MissingPrograms::DoAnything;
   /// May claims rest on loops making no more than kMostPasses?  A verdict that does says so.
   bool mayTakeFewPasses = false;
-  bool takesFewPasses = false;                         // in this proof: set by prove() alone
+  bool takesFewPasses = false; // in this proof: set by prove() alone
+  /// Those that are taken to return (MissingPrograms::Return) change nothing, in this proof: set by prove() alone.
+  bool missingChangeNothing = false;
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };
 

@@ -228,7 +228,7 @@ struct ExploreOptions {
   InvariantSearch search = InvariantSearch::Usual;
   LoopHints rankingHints = {}; // kept for LoopInstance::rankingHints
   MissingPrograms missing = MissingPrograms::DoAnything;
-  bool missingChangeNothing = false;                // those that return: for single runs
+  bool missingChangeNothing = false;                // those that return
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
   /// Whether the program may have been called where it ends with `M99 P`, which then returns; a started one goes on at
   /// that number of its own.  False: for single runs of a started program.

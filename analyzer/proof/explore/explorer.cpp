@@ -365,6 +365,12 @@ std::vector<Path> Explorer::execute(Path path) {
 
 std::vector<Path> Explorer::executeInstruction(Path path) {
   const Instruction &instruction = nodeOf(path).instruction;
+  auto context = contextOf(path);
+  if (endsCorner(context, instruction)) {
+    loseCorner(context);
+    if (!takeStops(path))
+      return {};
+  }
   return match(
       instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },
       [&](const Test &test) { return follow(std::move(path), test); },

@@ -104,10 +104,10 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInt
 std::vector<Path> Explorer::missingCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                         std::optional<std::size_t> modal, const std::string &name) {
   const NodeId next = nodeOf(path).next;
+  recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, fmt::format("{} was not supplied", name), name});
   if (options_.missingChangeNothing)
     return {to(std::move(path), next)};
   loseCutter(path, "cutter compensation through a call that is not followed");
-  recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, fmt::format("{} was not supplied", name), name});
   recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);
   const Condition unknown = path.state.modalCallsUnknown;

@@ -46,6 +46,9 @@ std::string nameOfPart(PartId id) {
   case Part::Position:
   case Part::LengthChanged:
   case Part::AxisTurned:
+  case Part::CornerChamfer: // at the end none waits
+  case Part::CornerRadius:
+  case Part::CornerStart:
   case Part::EnteredLoop:
   case Part::Counter:
   case Part::SavedCode:

@@ -82,6 +82,15 @@ public:
                       std::back_inserter(proof.contradictions));
   }
 
+  /// The missing programs that are taken to return.
+  std::set<std::string> returning() const {
+    std::set<std::string> names;
+    for (const UnmodelledCall &call : stage_->found.unmodelledCalls)
+      if (!call.returning.empty())
+        names.insert(call.returning);
+    return names;
+  }
+
 private:
   ProofContext contextOf(Stage &stage) {
     return {{subject_, start_, stage.found},
@@ -139,10 +148,7 @@ private:
 
   /// Which missing programs a verdict takes to return: for all runs, or in the run of the witness.
   void nameReturning(std::vector<Obligation> &rows) const {
-    std::set<std::string> names;
-    for (const UnmodelledCall &call : stage_->found.unmodelledCalls)
-      if (!call.returning.empty())
-        names.insert(call.returning);
+    const std::set<std::string> names = returning();
     if (names.empty())
       return;
     for (Obligation &row : rows)
@@ -329,6 +335,8 @@ void takeFromExact(Obligation &row, const Obligation &exact) {
 struct WholeProof {
   std::unique_ptr<Work> work;
   ProgramProof proof;
+
+  bool meetsMissing() const { return !work->returning().empty(); }
 };
 
 /// In the arithmetic of the options, and with all the steps.
@@ -409,9 +417,15 @@ void proveOfFewPasses(const ProofSubject &subject, ProgramProof &proof) {
   std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));
 }
 
+/// Of a proof in which missing programs are taken to return: whether it meets any.
+struct ProofWithMissing {
+  ProgramProof proof;
+  bool meetsMissing;
+};
+
 /// Claims about space are proved apart, with the movements of the program: they need much, and take nothing from the
 /// others.
-ProgramProof proveRounded(const ProofSubject &subject) {
+ProofWithMissing proveRounded(const ProofSubject &subject) {
   Kinds space, others;
   for (const ObligationKind kind : kObligationKinds)
     if (subject.wants(kind))
@@ -437,7 +451,44 @@ ProgramProof proveRounded(const ProofSubject &subject) {
       whole.incomplete = std::move(part.incomplete);
   }
   putInOrder(whole.obligations);
-  return std::move(whole);
+  return {std::move(whole), std::ranges::any_of(parts, [](const WholeProof &part) { return part.meetsMissing(); })};
+}
+
+ProofWithMissing proveInOptions(const ProofSubject &subject) {
+  if (subject.options.arithmetic != Arithmetic::Exact)
+    return proveRounded(subject);
+  WholeProof whole = proveIn(subject);
+  return {std::move(whole.proof), whole.meetsMissing()};
+}
+
+/// A missing program may change the counter of a loop around its call, and mostly does not: that something ends is asked
+/// again of the runs in which it changes nothing.  Other claims are not: what is read behind a call, such as the result
+/// of a probing cycle, the missing program is called to change.
+void proveOfUnchanged(const ProofSubject &subject, ProgramProof &proof) {
+  const auto isOpenEnd = [](const Obligation &row) {
+    return isOpen(row) && (row.kind == ObligationKind::LoopEnds || row.kind == ObligationKind::ProgramEnds);
+  };
+  Kinds kinds;
+  for (const Obligation &row : proof.obligations)
+    if (isOpenEnd(row))
+      kinds.insert(row.kind);
+  if (kinds.empty())
+    return;
+  ProveOptions options = withOnly(subject.options, kinds);
+  options.missingChangeNothing = true;
+  options.guards = InferGuards::No;
+  if (!subject.contract())
+    options.steps /= 3;
+  const ProofSubject unchanged{subject.programs, subject.program, subject.contracts, options};
+  ProgramProof found = std::move(proveInOptions(unchanged).proof);
+  for (Obligation &row : proof.obligations)
+    for (const Obligation &other : found.obligations)
+      if (isOpenEnd(row) && isSameClaim(row, other) && other.verdict.holds() && !other.returning.empty()) {
+        row.verdict = other.verdict;
+        row.returning = other.returning;
+        row.unchanged = true;
+      }
+  std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));
 }
 
 } // namespace
@@ -445,7 +496,10 @@ ProgramProof proveRounded(const ProofSubject &subject) {
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
   const ProofSubject subject{programs, program, contracts, options};
-  return options.arithmetic == Arithmetic::Exact ? std::move(proveIn(subject).proof) : proveRounded(subject);
+  auto [proof, meetsMissing] = proveInOptions(subject);
+  if (meetsMissing && options.missing == MissingPrograms::Return)
+    proveOfUnchanged(subject, proof);
+  return std::move(proof);
 }
 
 } // namespace feedhold::prove

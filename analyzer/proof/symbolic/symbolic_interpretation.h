@@ -239,6 +239,7 @@ public:
   Truth both(Truth a, Truth b) { return {store_.logicalAnd(a.term, b.term)}; }
   Truth negation(Truth a) { return {store_.logicalNot(a.term)}; }
   bool mayBe(Truth a);
+  bool proves(Truth a) { return path_ && path_->proves(a.term); }
   Truth unknownTruth() { return {fresh(kUnknownTruth, smt::Sort::Bool)}; }
   Truth answer(ControlQuestion question);
   Truth setting(SwitchId id);

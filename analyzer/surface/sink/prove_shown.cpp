@@ -211,8 +211,12 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
 std::vector<std::string> assumedIn(const Obligation &obligation) {
   std::vector<std::string> assumed;
   if (const std::size_t programs = obligation.returning.size(); programs > 0)
-    assumed.push_back(fmt::format("if {} {}, which {} not in the files", listOf(obligation.returning),
-                                  programs == 1 ? "returns" : "return", programs == 1 ? "is" : "are"));
+    assumed.push_back(fmt::format("if {} {}{}, which {} not in the files", listOf(obligation.returning),
+                                  programs == 1 ? "returns" : "return",
+                                  !obligation.unchanged ? ""
+                                  : programs == 1       ? " and changes nothing"
+                                                        : " and change nothing",
+                                  programs == 1 ? "is" : "are"));
   if (obligation.takesFewPasses)
     assumed.emplace_back("if no loop makes more than 10^12 passes");
   return assumed;
