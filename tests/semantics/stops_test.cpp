@@ -38,6 +38,8 @@ const std::vector<Stop> kStops = {
     STOP(ArcWithoutCentre, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.F5.\nM30\n"),
     STOP(ArcRadius, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.I3.F5.\nM30\n"),
     STOP(ArcRadius, "linuxcnc", "g21 g90 g17 g0 x0 y0\ng2 x10 i3 f10\nm2\n"),
+    STOP(CornerTooLarge, "fanuc-30i", "O1\nG0G90G17X0Y0\nG1X10.,R5.F5.\nY4.\nM30\n"),
+    STOP(CornerTooLarge, "haas-ngc", "O1\nG0G90G17X0Y0\nG1X10.,C11.F5.\nY40.\nM30\n"),
     STOP(MachineIncrement, "linuxcnc", "g21 g91\ng53 g0 z1\nm2\n"),
     STOP(CycleWithoutLevel, "linuxcnc", "g21 g90 g17\ng81 x1 y1 r1 f10\nm2\n"),
     STOP(CycleWithoutLevel, "fanuc-30i", "O1\nG90G17G80\nG81X1.Z-1.F10\nM30\n", &Switches::bareCycleStops),
