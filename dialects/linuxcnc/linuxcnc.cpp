@@ -63,7 +63,7 @@ constexpr std::array kHints = {
     LanguageHint{TextSignal::RsComment, 3},     LanguageHint{TextSignal::NgcFile, 10},
     LanguageHint{TextSignal::NgcCode, 8},       LanguageHint{TextSignal::MacroCall, -30},
     LanguageHint{TextSignal::MacroAlarm, -30},  LanguageHint{TextSignal::NumberedLoop, -30},
-    LanguageHint{TextSignal::MacroBranch, -60},
+    LanguageHint{TextSignal::MacroBranch, -60}, LanguageHint{TextSignal::NgcComment, 16},
 };
 
 /// Of the control itself, as `rs274` refuses to set them.

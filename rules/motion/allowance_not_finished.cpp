@@ -60,11 +60,22 @@ private:
   std::optional<BlockId> last_;
 };
 
-/// `O1003 (ROUGHING)`: another program finishes the part, as the head says in one of the languages of the shops.
+/// `O1003 (ROUGHING)`, or `T0909 (OD ROUGH)` where it is the only tool: another program finishes the part, as the
+/// remarks say in one of the languages of the shops.
 bool isForRoughing(const Program &program, const FileContext &context) {
   std::string head;
-  for (BlockId block = program.first; block < program.last && !findWord(context.tree, block, 'T'); block = block.next())
-    head += remarksOf(context, block);
+  std::string tools;
+  std::size_t calls = 0;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    const bool hasTool = findWord(context.tree, block, 'T') != nullptr;
+    calls += hasTool ? 1 : 0;
+    if (hasTool)
+      tools += remarksOf(context, block);
+    else if (calls == 0)
+      head += remarksOf(context, block);
+  }
+  if (calls == 1)
+    head += tools;
   return saysAny(head, {"ROUGH", "DESBAST", "EBAUCHE", "SCHRUPP", "SGROSS", "DEGROSS"}) &&
          !saysAny(head, {"FINISH", "ACABAM", "FINITION", "SCHLICHT", "FINITURA"});
 }

@@ -80,10 +80,20 @@ void checkMixed(ProgramId program, const FileContext &context, const Reporter &r
 /// What the text of a program says of units, taken as a whole.
 struct Units {
   bool isMetric = false; // G21 and no G20
+  bool isHigh = false;   // no G20, and heights that no machine has in inches
   bool hasMode = false;  // some code of the feed mode
+  bool isMixed = false;  // another one than that of feed per minute
   bool isWhole = false;  // with its M30
   bool isOfMill = false; // it moves in Y, and starts no lathe's constant surface speed
 };
+
+/// `Z150.`: 4 m above the part.
+bool isHighInInches(BlockId block, const FileContext &context) {
+  constexpr std::int64_t kHigh = 100;
+  const Word *z = findWord(context.tree, block, 'Z');
+  return z && z->isNumber() && z->has(Word::kPoint) && z->number() >= Decimal(kHigh, 0) &&
+         !meansOwnWords(context.tree, block, context.dialect);
+}
 
 Units unitsOf(ProgramId program, const FileContext &context) {
   Units units{.isOfMill = context.dialect.machine == MachineKind::Milling};
@@ -94,13 +104,16 @@ Units unitsOf(ProgramId program, const FileContext &context) {
   for (BlockId block = whole.first; block < whole.last; block = block.next()) {
     const auto does = [&](CodeAction action) { return findAction(context.tree, block, context.dialect, {action}); };
     hasMetric = hasMetric || does(CodeAction::Metric);
+    units.isHigh = units.isHigh || isHighInInches(block, context);
     hasInch = hasInch || does(CodeAction::Inch);
     units.hasMode = units.hasMode || feedModeIn(block, context);
+    units.isMixed = units.isMixed || does(CodeAction::FeedPerRevolution) || does(CodeAction::FeedInverse);
     units.isWhole = units.isWhole || findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd);
     movesInY = movesInY || findWord(context.tree, block, 'Y');
     units.isOfMill = units.isOfMill && !does(CodeAction::ConstantSurface);
   }
   units.isMetric = hasMetric && !hasInch;
+  units.isHigh = units.isHigh && !hasInch;
   units.isOfMill = units.isOfMill && movesInY;
   return units;
 }
@@ -115,7 +128,7 @@ public:
   }
 
   void read(BlockId block, const Reporter &reporter) {
-    const bool isHidden = hidden_.isIn(block);
+    const bool isHidden = isHiddenIn(block);
     noteSpeed(block);
     if (isHidden && units_.hasMode)
       lose();
@@ -137,6 +150,15 @@ public:
   }
 
 private:
+  /// Jumps and calls within a program that always feeds by the minute change nothing about that.
+  bool isHiddenIn(BlockId block) const {
+    const auto calls = context_.model.callsIn(block, block.next());
+    const Block &its = context_.tree.blocks[block];
+    const bool isOwn = !units_.isMixed && !its.has(Block::kSkip) && !its.has(Block::kSkipInside) &&
+                       !its.has(Block::kBroken) &&
+                       std::ranges::all_of(calls, [](const Call &call) { return call.kind == CallKind::Local; });
+    return !isOwn && hidden_.isIn(block);
+  }
   void lose() {
     mode_ = nullptr;
     isPerMinute_ = isPerRevolution_ = false;
@@ -149,7 +171,8 @@ private:
   }
   /// So slow that it would take a minute for a millimetre, or for some hundredths of an inch.
   bool isCreep(const Decimal &feed) const {
-    return !feed.isZero() && !feed.isNegative() && feed < (units_.isMetric ? Decimal(1, 0) : Decimal(5, 2));
+    return !feed.isZero() && !feed.isNegative() &&
+           feed < (units_.isMetric || (mode_ && units_.isHigh) ? Decimal(1, 0) : Decimal(5, 2));
   }
   void judge(const Word &word, const Reporter &reporter) {
     if (told_)

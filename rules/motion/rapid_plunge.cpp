@@ -36,7 +36,7 @@ public:
                        .notes = {"if there is material below the tool, it breaks",
                                  isInherited ? "`G00` is still active: write `G01` in this block"
                                              : "write `G01` unless the tool stands beside the part"}},
-                      isInherited ? Severity::Warning : Severity::Info);
+                      isInherited && entries_.size() < kHabit ? Severity::Warning : Severity::Info);
     }
   }
 
@@ -47,11 +47,13 @@ private:
     plunge_.reset();
     below_.reset();
     fedUp_.reset();
+    entry_.reset();
     hasMoved_ = false;
   }
   void follow(const DepthMove &move) override {
     const Word *level = move.level;
     followDown(move);
+    noteEntry(move);
     const auto fed = level ? fed_.find(level->number()) : fed_.end();
     if (plunge_ && move.feeds && !level) // a cut at this depth
       found_.insert(*plunge_);
@@ -68,6 +70,14 @@ private:
       hasMoved_ = false;
   }
 
+  /// `G00 Z-3.`, and a cut in the plane from there.
+  void noteEntry(const DepthMove &move) {
+    if (entry_ && move.feeds && !move.level)
+      entries_.insert(*entry_);
+    entry_.reset();
+    if (!move.feeds && move.isAlone && move.level && move.level->number().isNegative())
+      entry_ = move.node;
+  }
   /// `G00 Z-15.`, `G01 Z-5.`, and a cut in the plane.
   void followDown(const DepthMove &move) {
     if (fedUp_ && move.feeds && !move.level)
@@ -85,6 +95,11 @@ private:
       isDeep_ = move.level->number().isNegative();
   }
 
+  /// Whoever enters so that often does it beside the part.
+  static constexpr std::size_t kHabit = 3;
+
+  std::optional<NodeId> entry_;                          // the last move, at rapid and down
+  std::set<NodeId> entries_;                             // such moves with a cut behind them
   std::optional<std::pair<NodeId, const Word *>> below_; // the last move, at rapid
   std::optional<NodeId> fedUp_;                          // the last move, above it
   bool isDeep_ = false;                                  // before the move

@@ -83,13 +83,16 @@ private:
     const Word *word;    // the X
   };
 
-  /// `G50 S1500`, `G92 S1500`, or what is not seen here: a call.  Which of the two it is depends on the G code system,
-  /// which the text may not show.
+  /// `G50 S1500`, `G92 S1500`, `G96 S150 D1500`, or what is not seen here: a call.  Which of the two it is depends on
+  /// the G code system, which the text may not show.
   bool mayLimit(BlockId block) const {
     const bool sets = std::ranges::any_of(context_.tree.wordsOf(block), [](const Word &word) {
       return word.address() == 'G' && (word.integer() == 50U || word.integer() == 92U);
     });
-    return !context_.model.callsIn(block, block.next()).empty() || (sets && findWord(context_.tree, block, 'S'));
+    const bool setsBeside = findAction(context_.tree, block, context_.dialect, {CodeAction::ConstantSurface}) &&
+                            findWord(context_.tree, block, 'D');
+    return setsBeside || !context_.model.callsIn(block, block.next()).empty() ||
+           (sets && findWord(context_.tree, block, 'S'));
   }
   /// Of the G code system in force.
   std::string limitCode() const {

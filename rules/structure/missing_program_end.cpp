@@ -38,17 +38,28 @@ bool isSnippet(const FileContext &context, ProgramId id) {
   return blocks > 0;
 }
 
-/// A program without O word, as postprocessors write it, is no piece of one if it changes tools and moves them.
+/// A program without O word, as postprocessors write it, is no piece of one if it changes to tools with numbers and
+/// moves them.
 bool isWholeProgram(const FileContext &context, const Program &program) {
   bool changesTool = false;
   bool moves = false;
+  bool namesTool = false;
   for (BlockId block = program.first; block < program.last; block = block.next())
     for (const Word &word : context.tree.wordsOf(block)) {
       const Code *code = codeOf(word, context.dialect);
       changesTool = changesTool || (code && code->action == CodeAction::ToolChange);
       moves = moves || (changesTool && axisOf(word.address()));
+      namesTool = namesTool || word.address() == 'T';
     }
-  return moves;
+  return moves && namesTool;
+}
+
+/// The call of a program that is not among the files: it may end the run by M30.
+const Call *unseenCallIn(const FileContext &context, BlockId block) {
+  const auto calls = context.model.callsIn(block, block.next());
+  const auto found =
+      std::ranges::find_if(calls, [&](const Call &call) { return !context.callGraph.callee(context.file, call); });
+  return found == calls.end() ? nullptr : &*found;
 }
 
 /// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.
@@ -91,14 +102,17 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
       (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)) ||
       isStructureBroken(context, id))
     return;
+  const bool mayEnd = unseenCallIn(context, *last) != nullptr;
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
   const std::string name = isNamed(program) ? fmt::format("`{}`", toString(program.name)) : "the program";
   reporter.report({.message = fmt::format("{} can run past its last block", name),
                    .span = context.tree.blocks[*last].span(),
-                   .label = maySkip ? "with block skip on, the program does not end here" : "",
+                   .label = maySkip  ? "with block skip on, the program does not end here"
+                            : mayEnd ? "unless this program, which is not in the files, ends the run"
+                                     : "",
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
                              "end a main program with M30, a subprogram or macro with M99"}},
-                  isSnippet(context, id) ? Severity::Info : Severity::Warning);
+                  isSnippet(context, id) || mayEnd ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

@@ -133,6 +133,16 @@ std::optional<Setting> settingIn(BlockId block, const FileContext &context) {
   return Setting{*code, words[1]->address(), words[1]->number()};
 }
 
+/// Something that is called behind the block may set it back.
+bool callsBetween(BlockId from, BlockId to, const FileContext &context) {
+  if (!context.model.callsIn(from, to).empty())
+    return true;
+  for (BlockId block = from; block < to; block = block.next())
+    if (callsUnseen(block, context))
+      return true;
+  return false;
+}
+
 /// The last block that sets what the dead one was to set back.
 std::optional<BlockId> notSetBack(const DeadBlocks::Run &run, BlockId start, ProgramId program,
                                   const FileContext &context) {
@@ -153,9 +163,11 @@ std::optional<BlockId> notSetBack(const DeadBlocks::Run &run, BlockId start, Pro
 
 void reportSetting(BlockId set, BlockId back, BlockId ender, const FileContext &context, const Reporter &reporter) {
   const auto spanOf = [&](BlockId block) { return context.tree.blocks[block].span(); };
+  const bool isSure = !callsBetween(set.next(), ender, context);
   reporter.report(
-      {.message = fmt::format("{} is never executed: {} stays in force", context.quoted(spanOf(back)),
-                              context.quoted(spanOf(set))),
+      {.message =
+           fmt::format("{} is never executed: {} stays in force{}", context.quoted(spanOf(back)),
+                       context.quoted(spanOf(set)), isSure ? "" : ", unless what is called behind it sets it back"),
        .span = spanOf(back),
        .labels = {{spanOf(set), "set here"}, {spanOf(ender), "the program never continues past this block"}},
        .notes = {"set it back before the program ends or returns"}},

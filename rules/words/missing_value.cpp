@@ -24,6 +24,13 @@ bool isColonOfRemark(const SyntaxIssue &issue, const FileContext &context) {
              .starts_with('(');
 }
 
+/// `#1=#1-#11:`, which was to be the end of the block.
+bool isColonForEnd(const SyntaxIssue &issue, const FileContext &context) {
+  const Block &block = context.tree.blocks[context.tree.blockAt(issue.span.begin)];
+  return context.text(issue.span) == ":" && issue.span.begin > block.begin &&
+         trimmed(context.text({issue.span.end, block.end})).empty();
+}
+
 /// Once for all of the file: they have one cause.
 void reportColons(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   const auto isSame = [&](const SyntaxIssue &other) { return isColonOfRemark(other, context); };
@@ -60,7 +67,8 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
     return;
   }
   reporter.report(
-      {.message = fmt::format("{} has no number", context.quoted(issue.span)),
+      {.message = isColonForEnd(issue, context) ? "`:` stands at the end of the block in place of `;`"
+                                                : fmt::format("{} has no number", context.quoted(issue.span)),
        .span = issue.span,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::NoDataAfterAddress))}});
 }

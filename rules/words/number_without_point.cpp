@@ -37,7 +37,8 @@ const Word *twinOf(const Word &word, const FileContext &context) {
 const Word *neighbourOf(const Word &word, const FileContext &context) {
   const Word *found = nullptr;
   for (const Word &other : context.tree.wordsOf(context.tree.blockAt(word.span().begin))) {
-    if (&other == &word || formatOf(context.dialect, other.address()).kind != AddressKind::Length)
+    if (&other == &word || formatOf(context.dialect, other.address()).kind != AddressKind::Length ||
+        (other.isNumber() && other.number().isZero())) // `J0` is the same with a point
       continue;
     if (!other.isNumber() || !other.has(Word::kPoint))
       return nullptr;
@@ -72,12 +73,21 @@ void reportWord(const Word &word, const std::optional<Witness> &witness, const F
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 
+/// `G2 I2.0 J0 Z-500` in one block after the other is one slip, and the I beside it counts as often.
+bool isRepeated(const Word &word, const WrittenLengths &lengths, const FileContext &context) {
+  const auto same = static_cast<std::size_t>(std::ranges::count_if(lengths.withoutPoint, [&](WordId each) {
+    return context.text(context.tree.words[each].span()) == context.text(word.span());
+  }));
+  const std::size_t others = lengths.withoutPoint.size() - same + 1;
+  return same > 1 && lengths.wholeWithPoint >= lengths.withoutPoint.size() + kHabitOfNeighbours * others;
+}
+
 std::optional<Witness> witnessOf(const Word &word, const WrittenLengths &lengths, const FileContext &context) {
   const std::size_t slips = lengths.withoutPoint.size();
   if (lengths.withPoint >= kHabitOfTwins * slips)
     if (const Word *twin = twinOf(word, context))
       return Witness{twin, "has one elsewhere"};
-  if (lengths.wholeWithPoint >= kHabitOfNeighbours * slips)
+  if (lengths.wholeWithPoint >= kHabitOfNeighbours * slips || isRepeated(word, lengths, context))
     if (const Word *neighbour = neighbourOf(word, context))
       return Witness{neighbour, "the other lengths of its block do"};
   return std::nullopt;

@@ -133,9 +133,17 @@ private:
   void countFadalMarks();
   bool isBareIf() const;
   bool isSimulatorCall() const;
+  bool isNgcLine() const;
+  bool isEngraving() const;
   void countCombinations();
   void sortLine();
 
+  static constexpr std::uint32_t lettersOf(std::string_view letters) {
+    std::uint32_t bits = 0;
+    for (const char letter : letters)
+      bits |= 1U << (letter - 'A');
+    return bits;
+  }
   bool hasLetter(char letter) const { return (letters_ >> (letter - 'A') & 1U) != 0; }
   bool hasNumber(char letter) const { return (numbered_ >> (letter - 'A') & 1U) != 0; }
 

@@ -559,9 +559,9 @@ void LineScanner::countCombinations() {
     count(TextSignal::TurningCycle);
   // `G71 P10 Q20 U.02 W.005 D.05`, the cycle in one block; `G12 I.5 K1. Q.2`, a pocket in several turns.
   if ((hasTurningCycle_ && hasDecimalD_ && hasLetter('P') && hasLetter('Q')) ||
-      ((gCodes_[12] || gCodes_[13]) && hasLetter('I') && hasLetter('K') && hasLetter('Q')))
+      ((gCodes_[12] || gCodes_[13]) && hasLetter('I') && hasLetter('K') && hasLetter('Q')) || isEngraving())
     count(TextSignal::HaasCode);
-  if (hasG64_ && hasNumber('P'))
+  if (isNgcLine())
     count(TextSignal::NgcCode);
   if (hasBareDo_ && hasCLike_)
     count(TextSignal::BeagleLoop);
@@ -570,6 +570,17 @@ void LineScanner::countCombinations() {
     countLatheMarks();
     countGCodeSystem();
   }
+}
+
+/// `G64 P0.01`, `G96 D2500 S150`, and `G7` where no word beside it makes it another function.
+bool LineScanner::isNgcLine() const {
+  const bool isDiameterMode = gCodes_[7] && (letters_ & ~lettersOf("GNMFST")) == 0;
+  return (hasG64_ && hasNumber('P')) || (hasG96_ && hasLetter('D') && hasLetter('S')) || isDiameterMode;
+}
+
+/// `G47 P0 (TEXT) X2. Y2. I45. J.5 R.05 Z-.005 F15. E10.`
+bool LineScanner::isEngraving() const {
+  return gCodes_[47] && hasNumber('P') && hasLetter('J') && hasLetter('Z') && !hasLetter('D');
 }
 
 void LineScanner::sortLine() {

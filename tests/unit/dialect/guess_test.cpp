@@ -298,6 +298,12 @@ TEST(Guess, CyclesInOneBlockWithADecimalDepthAreOfHaas) {
 
 TEST(Guess, LinuxCncWithoutOWords) {
   EXPECT_EQ(guessed("G21 G90\nG64 P0.01\nG0 X0 Y0\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("(PathPilot Version: 2.9)\nG7\nG18 G90\nG30\nT0303\nG96 S 150 D 1800\nG95 F 0.1\nM3\n"
+                    "G0 X 1.2 Z -0.9\nG1 X 0.4 Z -1.1\nM30\n"),
+            "linuxcnc");
+  EXPECT_EQ(guessed("(Post: LinuxCNC)\nG21 G90\nT1 M6\nG43 H1\nG0 X0 Y0\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("O0060(TEXT)\nT1 M06\nG54 G90 G00 X1. Y1.\nG47 P0 (NAME) X2. Y2. I45. J.2 R.1 Z-.01 F10.\nM30\n"),
+            "haas-ngc");
   EXPECT_EQ(guessed("G0 X0 Y0\nG38.2 Z-10 F50\nM2\n"), "linuxcnc");
   EXPECT_EQ(guessed("O1\nG05.1 Q1\nG54.1 P3\nG64\nG0 X0 Y0\nM30\n"), "fanuc-30i");
 }
