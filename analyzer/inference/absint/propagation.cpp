@@ -149,6 +149,8 @@ bool Propagation::execute(NodeId node, AbstractState &state) {
   if (phase_ == Phase::Walk)
     engine_.visitor_->visit(placeOf(node), state, engine_.calls_);
   interpretation_.start();
+  if (AbstractContext context = contextAt(node, state); endsCorner(context, nodeAt(node).instruction))
+    loseCorner(context);
   return match(
       nodeAt(node).instruction,
       [&](const BlockSkip &skip) {

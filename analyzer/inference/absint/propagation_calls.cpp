@@ -230,6 +230,7 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
   std::optional<AbstractState> before; // where it may be needed again
   if (moves == Truth::Maybe)
     before = state;
+  loseCorner(context);
   if (mayBeTrue(state.modalCallsUnknown)) {
     CallRequest<AbstractInterpretation> unknown;
     unknown.freshLocals = true;

@@ -317,6 +317,7 @@ private:
     if (!modal)
       return false;
     auto ctx = context();
+    loseCorner(ctx);
     const CallRequest<ConcreteInterpretation> request = prepareModalCall(ctx, state_.modalCalls[*modal]);
     return !interpretation_.stopped() && enter(request, modal);
   }

@@ -27,8 +27,10 @@ template <ValueAlgebra R> typename R::Truth waitsForLine(StepContext<R> &context
       interpretation.both(interpretation.isVacant(corner.chamfer), interpretation.isVacant(corner.radius)));
 }
 
-/// Something comes that is no line behind the corner: where the tool goes is not known, up to the corner.
-template <ValueAlgebra R> void loseCorner(StepContext<R> &context);
+/// Something comes that is no line behind the corner, or none for certain: where the tool goes is not known, up to the
+/// corner.  In the second case a run may follow it, and stop.
+enum class CornerLost : std::uint8_t { Surely, Perhaps };
+template <ValueAlgebra R> void loseCorner(StepContext<R> &context, CornerLost how = CornerLost::Surely);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
 
@@ -55,8 +57,7 @@ public:
     const auto isBeside = [&](Axis axis) { return axis != plane->first && axis != plane->second && namesAxis(axis); };
     return plane && std::ranges::none_of(kAllAxes, isBeside) && (namesAxis(plane->first) || namesAxis(plane->second)) &&
            !interpretation_.mayBe(state_.transformed) && !interpretation_.mayBe(otherGeometry(context_)) &&
-           !isOpenTarget(context_, words_) && !mayCompensate(context_) &&
-           state_.modalCalls.empty() && !interpretation_.mayBe(state_.modalCallsUnknown);
+           !isOpenTarget(context_, words_);
   }
 
   /// The word of the block, if it has one and no other with a comma.
@@ -69,6 +70,11 @@ public:
         found = &each;
       }
     return found;
+  }
+
+  /// Where the corner is not followed, a run may still follow it.
+  void mayWait() {
+    state_.corner.chamfer = interpretation_.either(interpretation_.vacant(), interpretation_.anyNumber());
   }
 
   /// The line from `start` to the present position waits.  False: its corner is not followed.
@@ -88,8 +94,10 @@ public:
     const Plane plane = *planeOf(context_);
     const CornerState<Value> waiting = state_.corner;
     const bool isRound = context_.certain(interpretation_.isVacant(waiting.chamfer));
-    if (!isRound && !context_.certain(interpretation_.isVacant(waiting.radius))) {
-      loseCorner(context_);
+    const Value size = isRound ? waiting.radius : waiting.chamfer;
+    const Value &other = isRound ? waiting.chamfer : waiting.radius;
+    if (!context_.certain(interpretation_.isVacant(other)) || interpretation_.mayBe(interpretation_.isVacant(size))) {
+      loseCorner(context_, CornerLost::Perhaps);
       return corner;
     }
     state_.corner = noCorner(context_);
@@ -97,19 +105,16 @@ public:
     const Vector end{state_.position[indexOf(plane.first)], state_.position[indexOf(plane.second)]};
     const Way before = wayBetween(plane, waiting.start, at);
     const Way behind = wayBetween(plane, at, end);
-    const Value size = isRound ? waiting.radius : waiting.chamfer;
     const auto cut = isRound ? tangentOf(before, behind, size) : std::optional(size);
-    const auto shorter = [&](const Way &way) {
-      return interpretation_.compare(Relation::Less, way.length, cut ? *cut : context_.zero());
-    };
-    const Truth tooLarge = context_.either(shorter(before), shorter(behind));
-    interpretation_.alarm(cut ? tooLarge : context_.maybeNot(),
-                          {AlarmKind::CornerTooLarge, context_.place()});
+    stopWhereShorter(before, cut, AlarmKind::CornerTooLarge);
+    stopWhereShorter(behind, cut, AlarmKind::LineBehindCornerTooShort);
     const Point start = with(plane, corner, waiting.start);
     if (interpretation_.stopped())
       return corner;
-    if (!cut) {
-      interpretation_.unmodelled("a rounding between lines that may go straight on or back", context_.place());
+    if (!cut || mayCompensate(context_)) {
+      interpretation_.unmodelled(cut ? "a corner (,C ,R) under cutter compensation"
+                                     : "a rounding between lines that may go straight on or back",
+                                 context_.place());
       tellMove(MoveKind::Unmodelled, start, corner);
       return corner;
     }
@@ -158,6 +163,11 @@ private:
     return roundedToIncrement(context_, formatOf(context_.dialect(), word.address()), interpretation_.asNumber(value));
   }
 
+  /// What a corner takes of a line that is not known may be too much.
+  void stopWhereShorter(const Way &way, const std::optional<Value> &cut, AlarmKind alarm) {
+    const Truth isShorter = cut ? interpretation_.compare(Relation::Less, way.length, *cut) : context_.maybeNot();
+    interpretation_.alarm(isShorter, {alarm, context_.place()});
+  }
   bool isDiameter(const Plane &plane, std::size_t i) const {
     return (i == 0 ? plane.first : plane.second) == Axis::X && context_.dialect().machine == MachineKind::Turning;
   }
@@ -251,13 +261,18 @@ private:
       return tellMove(MoveKind::Feed, start, end);
     if (!rounding->kind)
       return tellMove(MoveKind::Unmodelled, start, end);
-    Move<Value> move = moveOf(*rounding->kind, start, end);
-    move.plane = plane;
-    move.firstCentre = rounding->centre[0];
-    move.secondCentre = rounding->centre[1];
-    tell(context_, std::move(move));
+    if constexpr (!requires { requires R::kAsksForKindsAlone; }) {
+      Move<Value> move = moveOf(*rounding->kind, start, end);
+      move.plane = plane;
+      move.firstCentre = rounding->centre[0];
+      move.secondCentre = rounding->centre[1];
+      tell(context_, std::move(move));
+    }
   }
-  void tellMove(MoveKind kind, const Point &start, const Point &end) { tell(context_, moveOf(kind, start, end)); }
+  void tellMove(MoveKind kind, const Point &start, const Point &end) {
+    if constexpr (!requires { requires R::kAsksForKindsAlone; }) // which was told of the block that waited
+      tell(context_, moveOf(kind, start, end));
+  }
   Move<Value> moveOf(MoveKind kind, const Point &start, const Point &end) {
     Move<Value> move;
     move.kind = kind;
@@ -282,12 +297,16 @@ private:
 
 } // namespace detail
 
-template <ValueAlgebra R> void loseCorner(StepContext<R> &context) {
+template <ValueAlgebra R> void loseCorner(StepContext<R> &context, CornerLost how) {
   R &interpretation = context.interpretation;
   if (!interpretation.mayBe(waitsForLine(context)))
     return;
   context.state.corner = detail::noCorner(context);
-  tell(context, MoveKind::Unmodelled, context.state.position);
+  if (how == CornerLost::Perhaps)
+    for (const AlarmKind alarm : {AlarmKind::CornerTooLarge, AlarmKind::LineBehindCornerTooShort})
+      interpretation.alarm(context.maybeNot(), {alarm, context.place()});
+  if constexpr (!requires { requires R::kAsksForKindsAlone; })
+    tell(context, MoveKind::Unmodelled, context.state.position);
   interpretation.unmodelled("a corner (,C ,R) without a line in the next block", context.place());
 }
 

@@ -31,7 +31,8 @@ public:
   void run() {
     const bool isEmpty = words_.entries.empty() && words_.codes.empty();
     if (!isEmpty && interpretation_.mayBe(waitsForLine(context_)) && !endsCorner())
-      loseCorner(context_);
+      loseCorner(context_,
+                 ownWords() || !interpretation_.mayBe(axisWords()) ? CornerLost::Surely : CornerLost::Perhaps);
     const bool others = namesOtherAxes();
     const Point before = others ? state_.position : Point{};
     act();
@@ -287,7 +288,7 @@ private:
       return tell(context_, hasOtherWay() ? MoveKind::Unmodelled : MoveKind::Feed, start);
     if (interpretation_.mayBe(arc))
       Arcs<R>(context_, words_, hasOtherWay()).follow(start, arc, interpretation_.both(arc, holds));
-    if (!context_.certain(arc) && interpretation_.wantsMoves() && !followCorners(start, holds))
+    if (!context_.certain(arc) && !followCorners(start, holds) && interpretation_.wantsMoves())
       tellLine(start);
     if (!interpretation_.mayBe(turning))
       return;
@@ -307,19 +308,26 @@ private:
   }
   /// Tells the line from `start`, or lets it wait.  False: it is none beside a corner that is followed.
   bool followCorners(const Point &start, Truth holds) {
-    if constexpr (requires { requires R::kAsksForKindsAlone; })
-      return false;
     const bool waits = interpretation_.mayBe(waitsForLine(context_));
     if (!waits && !hasCommaWord())
       return false;
     const Word *word = corners_.word();
     if ((!waits && !word) || !context_.certain(holds) || !isLineAtFeed() || !corners_.isLine()) {
-      loseCorner(context_);
+      loseCorner(context_, CornerLost::Perhaps);
+      if (word)
+        corners_.mayWait();
       return false;
     }
     const Point from = waits ? corners_.complete(start) : start;
-    if (interpretation_.stopped() || (word && corners_.wait(*word, from)))
+    if (interpretation_.stopped())
       return true;
+    if (word && corners_.wait(*word, from)) {
+      if constexpr (requires { requires R::kAsksForKindsAlone; })
+        tell(context_, MoveKind::Unmodelled, from);
+      return true;
+    }
+    if (word)
+      corners_.mayWait();
     tell(context_, hasCommaWord() ? MoveKind::Unmodelled : MoveKind::Feed, from);
     return true;
   }

@@ -80,6 +80,7 @@ enum class PartHavoc : std::uint8_t {
   Anything,
   Mapping, // anything where a mapping is or may be in force; else neutral: one is taken not to be left behind
   Pending, // likewise, and where the part is not neutral already
+  Neutral, // nothing of the kind is left behind
 };
 /// What a part holds when nothing has set it, and what the element stands for that a list does not have.
 enum class PartNeutral : std::uint8_t { Vacant, Zero, One, No, Yes, PowerOn };
@@ -109,11 +110,11 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::CycleDwell: return {PartDomain::Value, PartEntry::Unknown, PartHavoc::Anything, PartNeutral::Vacant};
   case Part::Scale: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::One};
   case Part::RotationAngle: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Zero};
-  case Part::CornerStart:
   case Part::ScaleCentre: // a centre outlasts its mapping
   case Part::RotationCentre: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
-  case Part::CornerChamfer: // what ends without a line, and is not followed, ends a corner
-  case Part::CornerRadius:
+  case Part::CornerChamfer: // whatever is not modelled is no line, with which a corner is made
+  case Part::CornerRadius: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Neutral, PartNeutral::Vacant};
+  case Part::CornerStart: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Neutral, PartNeutral::Zero};
   case Part::MirrorAt:
   case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
   case Part::LengthChanged:
@@ -433,7 +434,8 @@ template <typename R> void havocParts(R &interpretation, MachineState<R> &state,
         if (keeps.modalCalls && id == PartId{Part::OtherModalCalls})
           return;
         if constexpr (requires { setNeutral(interpretation, id, part); })
-          if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping)
+          if (traitsOf(id.part).havoc == PartHavoc::Neutral ||
+              (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping))
             return setNeutral(interpretation, id, part);
         if constexpr (requires { interpretation.isVacant(part); })
           if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Pending &&

@@ -55,6 +55,10 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
   const bool unknown = path.state.modalCallsUnknown.term != store_.no();
   if (!modal && !unknown)
     return {to(std::move(path), next)};
+  auto beforeCall = contextOf(path);
+  loseCorner(beforeCall);
+  if (!takeStops(path))
+    return {};
   std::vector<Path> paths;
   if (isPossible(path, store_.logicalNot(moves.term))) {
     Path still = to(path, next);
