@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The libraries of a program for another system: `cross_libraries.sh windows|wasm FOLDER` leaves include/ and lib/ there.
-# Debian's headers are linked; GMP is cross-built from Debian's source package.
+# Debian's headers are linked; GMP is cross-built from Debian's source package.  Exit code 3: that cannot be fetched.
 set -euo pipefail
 system=$1
 mkdir -p "$2"
@@ -24,12 +24,12 @@ configure_gmp() {
 
 # Lists of its own: those of the machine stay as they are.
 mkdir -p "$folder/apt/lists/partial" "$folder/source"
-sed 's/^Types: deb$/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$folder/apt/debian.sources"
+sed 's/^Types: deb$/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$folder/apt/debian.sources" || exit 3
 options=(-qq -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$folder/apt" -o "Dir::State::Lists=$folder/apt/lists"
   -o APT::Sandbox::User=root)
 cd "$folder/source"
-apt-get "${options[@]}" update
-apt-get "${options[@]}" source gmp >/dev/null
+apt-get "${options[@]}" update && apt-get "${options[@]}" source gmp >/dev/null ||
+  { echo "cross_libraries.sh: the source package of GMP cannot be fetched" >&2; exit 3; }
 cd gmp-*/
 mkdir -p doc # which Debian leaves out
 printf 'all install:\n' >doc/Makefile.in

@@ -98,8 +98,8 @@ std::string proverOf(const ProofCache &cache) {
 std::string proofKey(std::string_view prover, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
-  const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses,
-               missingChangeNothing, contractsOf] = options;
+  const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses, missingChangeNothing,
+               contractsOf] = options;
   static_cast<void>(contractsOf);
   const auto &[search, z3, cvc5] = budget;
   Material material;

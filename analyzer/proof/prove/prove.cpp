@@ -461,9 +461,9 @@ ProofWithMissing proveInOptions(const ProofSubject &subject) {
   return {std::move(whole.proof), whole.meetsMissing()};
 }
 
-/// A missing program may change the counter of a loop around its call, and mostly does not: that something ends is asked
-/// again of the runs in which it changes nothing.  Other claims are not: what is read behind a call, such as the result
-/// of a probing cycle, the missing program is called to change.
+/// A missing program may change the counter of a loop around its call, and mostly does not: that something ends is
+/// asked again of the runs in which it changes nothing.  Other claims are not: what is read behind a call, such as the
+/// result of a probing cycle, the missing program is called to change.
 void proveOfUnchanged(const ProofSubject &subject, ProgramProof &proof) {
   const auto isOpenEnd = [](const Obligation &row) {
     return isOpen(row) && (row.kind == ObligationKind::LoopEnds || row.kind == ObligationKind::ProgramEnds);
