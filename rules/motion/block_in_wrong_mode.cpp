@@ -1,4 +1,5 @@
 // block-in-wrong-mode: `G53 G0 Z0` under G91, `X40` behind G80, G84 with the spindle stopped: the control refuses them.
+#include "rules/flow/definitions.h"
 #include "rules/flow/loop_view.h"
 #include "rules/motion/ngc_block.h"
 

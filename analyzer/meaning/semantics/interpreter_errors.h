@@ -130,12 +130,10 @@ private:
 template <ValueAlgebra R> std::string_view whyInterpreterStops(StepContext<R> &context, const ExecutedWords<R> &words) {
   // An analysis that goes on behind mistakes looks at what would follow; nothing does, so that it says too much at
   // most.
-  if constexpr (requires { R::kGoesOnBehindMistakes; })
-    return {};
-  else if (!context.behaviour().stopsAtStrayWords)
-    return {};
-  else
-    return detail::InterpreterErrors<R>(context, words).find();
+  if constexpr (!requires { R::kGoesOnBehindMistakes; })
+    if (context.behaviour().stopsAtStrayWords)
+      return detail::InterpreterErrors<R>(context, words).find();
+  return {};
 }
 
 } // namespace feedhold

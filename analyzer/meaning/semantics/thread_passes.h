@@ -39,7 +39,7 @@ public:
     if (!readWords())
       return false;
     const auto target = targetOf(context_, words_);
-    const Value x = target[indexOf(Axis::X)], z = target[indexOf(Axis::Z)];
+    const Value &x = target[indexOf(Axis::X)], &z = target[indexOf(Axis::Z)];
     return drawsStrokes(context_) ? draw(x, z) : cutInBox(x, z);
   }
 
