@@ -20,7 +20,7 @@ DECIDED = ("proved", "refuted", "unreachable")
 
 
 def verdicts_of(output):
-    return {(row["kind"], row["id"]): row["verdict"] for file in json.loads(output)["files"] for row in file["obligations"]}
+    return {(row["kind"], row["id"], row["claim"]): row["verdict"] for file in json.loads(output)["files"] for row in file["obligations"]}
 
 
 class Outputs(Packaged):
@@ -82,6 +82,8 @@ class Outputs(Packaged):
         for words, ours in zip(requests, self.in_page(*requests)):
             theirs = self.packaged(words)
             with self.subTest(words=words):
+                self.assertNotIn("fault", ours)
+                self.assertEqual(ours["errors"], theirs.stderr.decode())
                 ours, theirs = verdicts_of(ours["output"]), verdicts_of(theirs.stdout)
                 self.assertEqual(ours.keys(), theirs.keys())
                 verdicts += [(ours[row], theirs[row]) for row in ours]

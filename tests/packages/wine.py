@@ -50,10 +50,10 @@ def made_place():
     # Makes drive C:.  Then a server and services for all runs: those that a run starts keep its pipes open, and the run
     # seems not to end.
     nothing = (WINE, "cmd.exe", "/c", "exit")
-    quietly(place, *nothing)
+    quietly(place, *nothing).check_returncode()
     at_server(place, "-w")
     at_server(place, "-p")
-    quietly(place, *nothing)
+    quietly(place, *nothing).check_returncode()
     return place
 
 
@@ -62,8 +62,8 @@ def at_server(place, option):
 
 
 def quietly(place, *command):
-    subprocess.run(command, env=place.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                   stderr=subprocess.DEVNULL, timeout=LONGEST_RUN)
+    return subprocess.run(command, env=place.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL, timeout=LONGEST_RUN)
 
 
 class Windows(Packaged):
