@@ -199,8 +199,13 @@ private:
       }
     const Value squares =
         interpretation_.add(interpretation_.multiply(way[0], way[0]), interpretation_.multiply(way[1], way[1]));
-    Way result{interpretation_.function(FunctionKind::Sqrt, squares), way, std::nullopt,
-               interpretation_.unknownTruth()};
+    // As along an axis where one of them is 0: a root may be rounded.
+    const auto withoutOther = [&](std::size_t i, const Value &otherwise) {
+      const Truth isAlone = interpretation_.compare(Relation::Equal, way[1 - i], context_.zero());
+      return interpretation_.select(isAlone, interpretation_.function(FunctionKind::Abs, way[i]), otherwise);
+    };
+    const Value root = interpretation_.function(FunctionKind::Sqrt, squares);
+    Way result{withoutOther(0, withoutOther(1, root)), way, std::nullopt, interpretation_.unknownTruth()};
     const Truth hasLength = interpretation_.compare(Relation::Greater, result.length, context_.zero());
     for (Value &part : result.unit)
       part = context_.proved(hasLength) ? interpretation_.divide(part, result.length) : interpretation_.anyNumber();
