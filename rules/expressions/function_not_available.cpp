@@ -1,4 +1,5 @@
 // function-not-available: `POW` on a control without it.
+#include "base/support/text.h"
 #include "findings/rule/rule.h"
 
 #include "rules/expressions/expression_view.h"
@@ -16,8 +17,7 @@ std::string_view shortNameOf(ExpressionId id, const FunctionCall &call, const Fi
     return {};
   const std::string_view text = context.text(context.tree.expressions[id].span);
   const auto startsWith = [&](std::string_view name) {
-    return text.size() > name.size() && std::ranges::equal(text.substr(0, name.size()), name, {},
-                                                           [](char each) { return static_cast<char>(each & ~0x20); });
+    return text.size() > name.size() && toUpper(text.substr(0, name.size())) == name;
   };
   if (call.function == FunctionKind::Round && startsWith("RND"))
     return text.substr(0, 3);

@@ -40,7 +40,8 @@ bool takesAxisWords(const Code &code) {
   constexpr std::array kTaking = {CodeAction::RotationOn, CodeAction::ScalingOn,  CodeAction::MirrorOn,
                                   CodeAction::MirrorOff,  CodeAction::Unmodelled, CodeAction::Anything,
                                   CodeAction::OtherCycle, CodeAction::SideCycle,  CodeAction::LengthGiven};
-  return isTurningCycle(code.action) || std::ranges::find(kTaking, code.action) != kTaking.end();
+  return isTurningCycle(code.action) || isCirclePocket(code.action) ||
+         std::ranges::find(kTaking, code.action) != kTaking.end();
 }
 
 bool movesByItself(const Code &code) {

@@ -73,7 +73,7 @@ private:
              const Code *code = word.isCode() ? codeOf(word, context_.dialect) : nullptr;
              return word.isCode() &&
                     (!code || code->action == CodeAction::Unmodelled || code->action == CodeAction::Anything ||
-                     code->action == CodeAction::OtherCycle || isSkip(code->role));
+                     code->action == CodeAction::OtherCycle || isCirclePocket(code->action) || isSkip(code->role));
            });
   }
   void finish(const Reporter &reporter) const {

@@ -85,6 +85,8 @@ enum class CodeAction : std::uint8_t {
   TurnContour, // cuts along Z up to a contour
   FaceContour, // along X
   RepeatContour,
+  CirclePocketClockwise, // about the position, with cutter compensation of its own; it ends at the centre
+  CirclePocketCounterclockwise,
   OtherCycle, // words and motion of its own: nothing is known of the position behind it
   PlaneXY,
   PlaneZX,
@@ -152,6 +154,13 @@ inline constexpr std::array kSingleTurningCycles = {CodeAction::DiameterCycle, C
                                                     CodeAction::ThreadCycle};
 constexpr bool isSingleTurningCycle(CodeAction action) {
   return CodeAction::DiameterCycle <= action && action <= CodeAction::ThreadCycle;
+}
+constexpr bool isCirclePocket(CodeAction action) {
+  return action == CodeAction::CirclePocketClockwise || action == CodeAction::CirclePocketCounterclockwise;
+}
+/// Cutter compensation begins in its block.
+constexpr bool beginsCompensation(CodeAction action) {
+  return action == CodeAction::CompensationLeft || action == CodeAction::CompensationRight || isCirclePocket(action);
 }
 /// No program notices the code in its variables or its path.
 constexpr bool changesNothing(CodeAction action) {

@@ -149,7 +149,7 @@ private:
     if (!std::holds_alternative<ExecuteWords>(node().instruction) || (words_.codes.empty() && words_.entries.empty()))
       return;
     auto ctx = context();
-    if (cutter_.isOff() && !mayCompensate(ctx))
+    if (cutter_.isOff() && !mayCompensate(ctx) && !findPocket(words_))
       return;
     RunCutter host(result_.moves, [&](double number) { return otherOffset(ctx, number); });
     const CutterBlock<double> block = cutterBlockOf(host, ctx, words_);

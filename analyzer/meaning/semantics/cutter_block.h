@@ -18,7 +18,10 @@ template <typename N> struct CutterBlock {
   std::string_view whyNoRadius = {}; // the offset is not known; empty: it is
   bool offsetIsAssumed = false;
   Plane plane = kPlaneXY;
-  bool switches = false; // G41 or G42 stands in the block
+  bool switches = false;         // G41 or G42 stands in the block
+  bool isInCompensation = false; // G41 or G42 may be in force
+  /// Of a cycle that takes the offset of D itself (circle_pocket.h): what it is; empty: the block is none.
+  std::string_view pocket = {};
   bool stopsReading = false;
   bool namesPlane = false;      // has words for the axes of the plane
   bool cancelsByVector = false; // `G40 I10. J-10.`: the block before it ends where the two directions cross
@@ -37,6 +40,13 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
 template <ValueAlgebra R> bool mayCompensate(StepContext<R> &context) {
   return !context.certain(
       context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, context.interpretation.truth(true)));
+}
+
+/// The code of a cycle that takes the offset of D itself; null: there is none in the block.
+template <ValueAlgebra R> const Code *findPocket(const ExecutedWords<R> &words) {
+  const auto pocket = std::ranges::find_if(
+      words.codes, [](const CodeWord &word) { return word.address == 'G' && isCirclePocket(word.code->action); });
+  return pocket == words.codes.end() ? nullptr : pocket->code;
 }
 
 // ---- implementation -----------------------------------------------------------------------------------------------
@@ -154,9 +164,15 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
   block.namesPlane = !words.has(CodeAction::Dwell) &&
                      (words.find(letterOf(block.plane.first)) || words.find(letterOf(block.plane.second)));
   const Code *code = detail::compensationCode(context);
-  if (code != nullptr && detail::setsSide(*code)) {
+  block.isInCompensation = mayCompensate(context);
+  if (const Code *pocket = findPocket(words)) {
+    block.pocket = pocket->meaning;
+    detail::readSide(host, context, words, *pocket, block);
+    if (block.isInCompensation)
+      block.whyNoRadius = "a circular pocket under cutter compensation";
+  } else if (code != nullptr && detail::setsSide(*code)) {
     detail::readSide(host, context, words, *code, block);
-  } else if (mayCompensate(context)) {
+  } else if (block.isInCompensation) {
     block.side = CutterSide<N>{};
     block.whyNoRadius = "compensation by a code that is not followed";
   }

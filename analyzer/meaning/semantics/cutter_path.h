@@ -108,6 +108,7 @@ private:
   static constexpr double kStanding = 1e-9; // a shorter way is none
   static constexpr double kSame = 1e-7;     // offsets that rounding alone keeps apart
 
+  void takePocket(Host &host, const Block &block, const At &at, std::size_t end);
   void enter(Host &host, const Block &block, const At &at);
   void change(Host &host, const Block &block, const At &at);
   void changeInside(Host &host, const Block &block, const At &at);
@@ -152,7 +153,11 @@ private:
 
 template <typename Host>
 void CutterPath<Host>::take(Host &host, const Block &block, CutterPlace where, std::size_t first, std::size_t end) {
-  if (alarm_ || (phase_ == Phase::Off && !block.side))
+  if (alarm_)
+    return;
+  if (phase_ == Phase::Off && !block.pocket.empty())
+    return takePocket(host, block, {where.place, where.depth, first}, end);
+  if (phase_ == Phase::Off && !block.side)
     return;
   if (block.switches)
     began_ = where.place;
@@ -168,6 +173,43 @@ void CutterPath<Host>::take(Host &host, const Block &block, CutterPlace where, s
     move(host, i, block, at);
   if (!moves && !alarm_)
     idle(host, block);
+}
+
+/// A cycle that takes the offset itself, begins and ends without compensation, and has no corners: each of its points
+/// lies on a line from the centre along the first axis, or about the centre.
+template <typename Host>
+void CutterPath<Host>::takePocket(Host &host, const Block &block, const At &at, std::size_t end) {
+  std::string_view why = block.whyNoRadius;
+  for (std::size_t i = at.move; why.empty() && i < end; ++i)
+    if (host.moveOf(i).kind == MoveKind::Unmodelled)
+      why = block.pocket;
+  if (const std::string_view open = host.takeUndecided(); why.empty())
+    why = open;
+  if (why.empty() && block.side && block.side->sign > 0)
+    why = "a circular pocket with an offset below 0";
+  began_ = at.place;
+  plane_ = block.plane;
+  if (!why.empty()) {
+    lose(host, why, at.place);
+    for (std::size_t i = at.move; i < end; ++i)
+      host.leave(i, why);
+    if (!block.isInCompensation)
+      phase_ = Phase::Off;
+    return;
+  }
+  const Vector offset{block.side ? -block.side->radius : N{}, {}};
+  for (std::size_t i = at.move; i < end; ++i) {
+    const MoveOf &programmed = host.moveOf(i);
+    const auto leaves = [&] { // the radius of the circle is larger than the offset
+      return host.lengthOf(programmed.end[indexOf(plane_.first)]) - host.lengthOf(programmed.firstCentre) +
+             offset.first;
+    };
+    if (programmed.offsetsEnd &&
+        stopsWhere(host, host.notPositive(leaves(), kStanding), AlarmKind::CutterInterference, at))
+      return;
+    host.follow(i, {shifted(host, programmed, programmed.offsetsStart ? offset : Vector{},
+                            programmed.offsetsEnd ? offset : Vector{})});
+  }
 }
 
 template <typename Host> void CutterPath<Host>::finish(Host &host) {

@@ -215,9 +215,9 @@ private:
   bool mayTakeAxes(std::uint8_t group, const typename R::ModalCode &code) {
     const auto &codes = context_.modes.group(group).codes;
     for (std::size_t i = 0; i < codes.size(); ++i)
-      if (const CodeAction action = codes[i]->action; action == CodeAction::Unmodelled ||
-                                                      action == CodeAction::OtherCycle || action == CodeAction::Skip ||
-                                                      isTurningCycle(action) || action == CodeAction::SideCycle)
+      if (const CodeAction action = codes[i]->action;
+          action == CodeAction::Unmodelled || action == CodeAction::OtherCycle || action == CodeAction::Skip ||
+          isTurningCycle(action) || action == CodeAction::SideCycle || isCirclePocket(action))
         if (interpretation_.mayBe(interpretation_.isOneOf(code, CodeMask{1} << i)))
           return true;
     return false;

@@ -137,9 +137,7 @@ private:
   /// A control stops where the tool does not fit into the contour, in this block or in one behind it.  Runs that follow
   /// the path of the tool's centre see it (machine/cutter_path.h); all others foresee it where the compensation begins.
   void alarmOfCompensation() {
-    const auto begins = [](const CodeWord &word) {
-      return word.code->action == CodeAction::CompensationLeft || word.code->action == CodeAction::CompensationRight;
-    };
+    const auto begins = [](const CodeWord &word) { return beginsCompensation(word.code->action); };
     Truth any = interpretation_.truth(std::any_of(words_.codes.begin(), words_.codes.end(), begins));
     for (const auto &[group, code] : words_.computed) // `G#7`, where #7 holds what #4007 said
       if (group == context_.modes.groupOf(ModalKind::Compensation))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/arcs.h"
+#include "meaning/semantics/circle_pocket.h"
 #include "meaning/semantics/corners.h"
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
@@ -55,7 +56,8 @@ private:
   static bool isMovement(const Code &code) {
     constexpr std::array kMovements = {CodeAction::MachineMove, CodeAction::ReferenceReturn,
                                        CodeAction::SecondReference, CodeAction::ReferenceCheck, CodeAction::Skip};
-    return std::find(kMovements.begin(), kMovements.end(), code.action) != kMovements.end();
+    return isCirclePocket(code.action) ||
+           std::find(kMovements.begin(), kMovements.end(), code.action) != kMovements.end();
   }
   /// One that regions do not describe.
   bool namesOther(Axis axis) const {
@@ -180,7 +182,8 @@ private:
                                     CodeAction::Anything,
                                     CodeAction::OtherCycle,
                                     CodeAction::SideCycle};
-    return isTurningCycle(code.action) || Offsets<R>::isOne(code) || code.role == CodeRole::CoordinateShift ||
+    return isTurningCycle(code.action) || isCirclePocket(code.action) || Offsets<R>::isOne(code) ||
+           code.role == CodeRole::CoordinateShift ||
            std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
   }
   void consume(const CodeWord &word) {
@@ -201,6 +204,8 @@ private:
       referenceCheck();
     else if (isTurningCycle(action))
       turningCycle(action, word.code->meaning, word.span);
+    else if (isCirclePocket(action))
+      circlePocket(word);
     else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled ||
              action == CodeAction::Anything)
       unmodelled(word);
@@ -221,6 +226,10 @@ private:
       if (namesOther(axis))
         state_.at(axis) = interpretation_.anyNumber();
     unmodelledCycle(what, place);
+  }
+  void circlePocket(const CodeWord &word) {
+    if (!CirclePocket<R>(context_, words_, word.code->action).run())
+      unmodelled(word);
   }
   void unmodelledCycle(std::string_view what, Span place) {
     tell(context_, MoveKind::Unmodelled, state_.position);

@@ -28,10 +28,13 @@ template <typename Value> struct Move {
   std::array<Value, kAxisCount> start{};
   std::array<Value, kAxisCount> end{};
   Plane plane = kPlaneXY; // of an arc
-  Value firstCentre{};    // of an arc: coordinates in its plane
+  Value firstCentre{};    // of an arc, and of a cycle about a centre: coordinates in its plane
   Value secondCentre{};
   std::uint32_t turns = 1; // of an arc: a full circle more for each above 1
   Value feed{};            // F in force; of Dwell: the time as programmed
+  /// Of a cycle that takes the offset of D itself (circle_pocket.h): the ends that it moves towards the centre.
+  bool offsetsStart = false;
+  bool offsetsEnd = false;
 };
 
 } // namespace feedhold

@@ -15,7 +15,8 @@ template <ValueAlgebra R> struct ToolPoint {
   std::array<typename R::Value, 3> zero;
   /// X, Y, Z: where the zero point lies in machine coordinates, tool length included.
   std::array<typename R::Value, 3> machineZero;
-  typename R::Truth withoutCompensation; // of the cutter radius (G40)
+  typename R::Truth compensationOff;     // of the cutter radius (G40)
+  typename R::Truth withoutCompensation; // nor does a cycle take an offset itself
   typename R::Truth lengthKnown;         // coordinates are those of the tip, if they were so at the start
   typename R::Truth withLength;          // that of the tool is in force
   typename R::Truth lengthSubtracted;    // by G44
@@ -89,6 +90,14 @@ template <ValueAlgebra R> typename R::Truth withLength(StepContext<R> &context) 
                         interpretation.both(byNumber, interpretation.negation(isNone)));
 }
 
+/// The block is a cycle that takes the offset of D itself.
+template <ValueAlgebra R> bool isPocket(const StepContext<R> &context) {
+  return std::ranges::any_of(context.tree().wordsOf(context.block), [&](const Word &word) {
+    const Code *code = word.address() == 'G' ? codeOf(word, context.dialect()) : nullptr;
+    return code && isCirclePocket(code->action);
+  });
+}
+
 /// The other axes stand where they stood at the start.
 template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry) {
   R &interpretation = context.interpretation;
@@ -111,11 +120,13 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
   const auto orAsAtEntry = [&](ModalKind kind, std::initializer_list<CodeAction> actions) {
     return detail::isAsAtEntry(context, entry, kind) ? always : context.inForce(kind, actions, always);
   };
+  const auto compensationOff = context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always);
   const auto withLength = detail::withLength(context);
   const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
   return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
           {machineOriginOf(context, Axis::X), machineOriginOf(context, Axis::Y), machineOriginOf(context, Axis::Z)},
-          context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
+          compensationOff,
+          interpretation.both(compensationOff, interpretation.truth(!detail::isPocket(context))),
           context.either(interpretation.negation(context.state.lengthChanged), withLength),
           withLength,
           context.inForce(ModalKind::Length, {CodeAction::LengthMinus}, interpretation.truth(false)),

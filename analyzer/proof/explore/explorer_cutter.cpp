@@ -82,11 +82,12 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
   if (!options_.cutterOffset)
     return false;
   auto context = contextOf(path);
-  const bool begins = std::any_of(words_.codes.begin(), words_.codes.end(),
-                                  [](const CodeWord &word) { return detail::setsSide(*word.code); });
+  const bool setsSide = std::any_of(words_.codes.begin(), words_.codes.end(),
+                                    [](const CodeWord &word) { return detail::setsSide(*word.code); });
+  const bool begins = findPocket(words_) || (setsSide && mayCompensate(context));
   if (isBlock && !path.cutter && mayRestoreSide(path))
     return false;
-  if (!isBlock || (!path.cutter && (!begins || !mayCompensate(context)))) {
+  if (!isBlock || (!path.cutter && !begins)) {
     if (!moves.empty() && path.cutter)
       loseCutter(path, "cutter compensation through a move that is not modelled");
     return false;

@@ -53,14 +53,14 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
   const TermId zero = store_.number(smt::Number(0));
   const SymbolicValue *known = path.state.variables.find(kBesidePath);
   const TermId before = known ? known->number : one; // havocked with all else
-  const TermId without = point.withoutCompensation.term;
-  point.withoutCompensation.term = store_.logicalAnd(without, store_.equal(before, zero));
+  const TermId without = point.compensationOff.term;
+  point.withoutCompensation.term = store_.logicalAnd(point.withoutCompensation.term, store_.equal(before, zero));
   auto context = contextOf(path);
   const std::optional<Plane> plane = planeOf(context);
   TermId comesBack = store_.no();
   for (const Move<SymbolicValue> &move : moves)
     for (const Axis axis : plane ? std::vector{plane->first, plane->second} : std::vector<Axis>{})
-      if (move.kind != MoveKind::Unmodelled)
+      if (move.kind != MoveKind::Unmodelled && !move.offsetsStart && !move.offsetsEnd)
         comesBack = store_.logicalOr(comesBack, store_.logicalNot(store_.equal(move.start[indexOf(axis)].number,
                                                                                move.end[indexOf(axis)].number)));
   if (!moves.empty())

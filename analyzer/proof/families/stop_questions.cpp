@@ -79,15 +79,14 @@ TermId isOneOf(SymbolicInterpretation &interpretation, const SymbolicValue &valu
   return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
 }
 
-/// The text has G41 or G42, or a computed G code, which may be one.
+/// The text has a code with which compensation begins, or a computed G code, which may be one.
 bool namesSide(const ProgramFile &file) {
   return std::ranges::any_of(file.tree->words, [&](const Word &word) {
     if (word.address() != 'G')
       return false;
     const auto tenths = word.tenths();
     const Code *code = tenths ? findGCode(*file.dialect, *tenths) : nullptr;
-    return !tenths ||
-           (code && (code->action == CodeAction::CompensationLeft || code->action == CodeAction::CompensationRight));
+    return !tenths || (code && beginsCompensation(code->action));
   });
 }
 

@@ -32,14 +32,11 @@ public:
   }
   FreeSpace inside(const Cylinder<TermId> &cylinder) const {
     if (cylinder.axis == Axis::Z) {
-      FreeSpace space =
-          convex({[=, this](const TermPoint &p) {
-                    const TermId room = store_.subtract(cylinder.radius, radius_);
-                    return store_.logicalAnd(notBelow(room, zero_),
-                                             notBelow(squared(room), sumOfSquares(from(p[0], cylinder.centre[0]),
-                                                                                  from(p[1], cylinder.centre[1]))));
-                  },
-                  [=, this](const TermPoint &p) { return within(cylinder.along, p[2]); }});
+      FreeSpace space = convex({[=, this](const TermPoint &p) {
+                                  return isWithin(store_.subtract(cylinder.radius, radius_),
+                                                  from(p[0], cylinder.centre[0]), from(p[1], cylinder.centre[1]));
+                                },
+                                [=, this](const TermPoint &p) { return within(cylinder.along, p[2]); }});
       space.around = [=, this](const TermPoint &centre, const std::vector<TermPoint> &ends) {
         return circlesInside(cylinder, store_.subtract(cylinder.radius, radius_), centre, ends);
       };
@@ -258,6 +255,12 @@ private:
 
   // ---- circles about an upright axis ----
 
+  /// The point (a, b) is no further than the room from the axis; beside it along one coordinate alone, without squares.
+  TermId isWithin(TermId room, TermId a, TermId b) const {
+    if (a == zero_ || b == zero_)
+      return sizesAtMost(room, {a == zero_ ? b : a});
+    return store_.logicalAnd(notBelow(room, zero_), notBelow(squared(room), sumOfSquares(a, b)));
+  }
   /// Each sum of the terms with either sign is at most the bound: so is the sum of their sizes.
   TermId sizesAtMost(TermId bound, const std::vector<TermId> &terms) const {
     std::vector<TermId> sums{zero_};
