@@ -59,13 +59,17 @@ private:
     const TurningStrokes<R> words(context_, words_);
     const auto plane = planeOf(context_);
     if (!words.hasOnly("NGIKQDLZFSM") || !plane || plane->normal != Axis::Z ||
-        interpretation_.mayBe(isPolar(context_)) || !words_.find('I') ||
+        interpretation_.mayBe(isPolar(context_)) || mayDrill() || !words_.find('I') ||
         (words_.find('K') != nullptr) != (words_.find('Q') != nullptr))
       return false;
     first_ = *words.length('I');
     step_ = words.length('Q');
     last_ = words.length('K').value_or(first_);
     return true;
+  }
+  /// A canned cycle may be active: what the block then does, the manual does not say.
+  bool mayDrill() {
+    return !context_.certain(context_.inForce(ModalKind::Cycle, {CodeAction::CycleOff}, interpretation_.truth(true)));
   }
   void feedDown() {
     if (!words_.find('Z'))

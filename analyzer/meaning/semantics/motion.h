@@ -82,7 +82,7 @@ private:
         words_.has(CodeAction::Incremental))
       return distanceModes();
     if (const CodeWord *word = ownWords())
-      return consume(*word);
+      return isPocketBesideOthers() ? unmodelled(*word) : consume(*word);
     const Truth cycle = cycleActive();
     const Truth moves =
         context_.either(axisWords(), interpretation_.both(isFullCircle(), interpretation_.negation(cycle)));
@@ -185,6 +185,12 @@ private:
     return isTurningCycle(code.action) || isCirclePocket(code.action) || Offsets<R>::isOne(code) ||
            code.role == CodeRole::CoordinateShift ||
            std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
+  }
+  /// Whose words those of the block are, no manual says.
+  bool isPocketBesideOthers() const {
+    const auto takes = [](const CodeWord &word) { return word.address == 'G' && takesWords(*word.code); };
+    return std::ranges::any_of(words_.codes, [](const CodeWord &word) { return isCirclePocket(word.code->action); }) &&
+           std::ranges::count_if(words_.codes, takes) > 1;
   }
   void consume(const CodeWord &word) {
     const CodeAction action = word.code->action;
