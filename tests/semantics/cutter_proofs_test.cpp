@@ -70,6 +70,12 @@ private:
   int first_ = 1, second_ = 0;
 };
 
+/// Those that the samples move: Y of a lathe may stand anywhere.
+std::array<std::size_t, 3> axesOf(const Dialect &dialect) {
+  return dialect.machine == MachineKind::Turning ? std::array<std::size_t, 3>{0, 2, 2}
+                                                 : std::array<std::size_t, 3>{0, 1, 2};
+}
+
 /// The moves of the tool's centre, and whether the control stops, at one value of the argument.
 struct Followed {
   std::vector<std::array<double, 6>> ends;
@@ -79,7 +85,8 @@ struct Followed {
 
 class Proof {
 public:
-  explicit Proof(const LanguageSample &sample, const Dialect &dialect) : interpretation_(store_, dialect) {
+  explicit Proof(const LanguageSample &sample, const Dialect &dialect)
+      : interpretation_(store_, dialect), axes_(axesOf(dialect)) {
     prove::SymbolicState entry = prove::symbolicEntry(interpretation_);
     size_ = entry.locals[1].number;
     const ModalTable modes(dialect);
@@ -110,9 +117,9 @@ public:
     Followed followed;
     for (const prove::MoveInstance &each : found_.moves)
       if (each.path == MovePath::Centre && isOfRun(each.conditions))
-        followed.ends.push_back({numberOf(each.move.start[0].number), numberOf(each.move.start[1].number),
-                                 numberOf(each.move.start[2].number), numberOf(each.move.end[0].number),
-                                 numberOf(each.move.end[1].number), numberOf(each.move.end[2].number)});
+        followed.ends.push_back({numberOf(each.move.start[axes_[0]].number), numberOf(each.move.start[axes_[1]].number),
+                                 numberOf(each.move.start[axes_[2]].number), numberOf(each.move.end[axes_[0]].number),
+                                 numberOf(each.move.end[axes_[1]].number), numberOf(each.move.end[axes_[2]].number)});
     for (const prove::CutterClaim &claim : found_.cutterClaims) {
       if (!isOfRun(claim.conditions))
         continue;
@@ -127,6 +134,7 @@ private:
 
   smt::TermStore store_;
   prove::SymbolicInterpretation interpretation_;
+  std::array<std::size_t, 3> axes_;
   TermId size_{0};
   prove::Exploration found_;
 };
@@ -143,6 +151,7 @@ Followed ofRun(const LanguageSample &sample, const Dialect &dialect, double size
   options.words = WordRounding::None;
   options.cutter = CutterCompensation::Followed;
   const RunResult result = run(*sample.set, sample.main(), options);
+  const std::array<std::size_t, 3> axes = axesOf(dialect);
   Followed followed;
   followed.stops = result.end == RunEnd::Alarm;
   for (const RecordedMove &recorded : result.moves) {
@@ -151,8 +160,8 @@ Followed ofRun(const LanguageSample &sample, const Dialect &dialect, double size
       continue;
     for (const RecordedMove &made : movesOfTip(recorded)) {
       const Move<ConcreteValue> &each = made.move;
-      followed.ends.push_back({each.start[0].number, each.start[1].number, each.start[2].number, each.end[0].number,
-                               each.end[1].number, each.end[2].number});
+      followed.ends.push_back({each.start[axes[0]].number, each.start[axes[1]].number, each.start[axes[2]].number,
+                               each.end[axes[0]].number, each.end[axes[1]].number, each.end[axes[2]].number});
     }
   }
   return followed;

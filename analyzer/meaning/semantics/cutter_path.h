@@ -202,7 +202,7 @@ template <typename Host> void CutterPath<Host>::change(Host &host, const Block &
     return;
   case Phase::On: return changeInside(host, block, at);
   case Phase::Ending:
-    if (block.changesTip)
+    if (!block.side && block.changesTip)
       leaveWithTip(host, at);
     else if (block.side)
       lose(host, "cutter compensation that begins again before a move has ended it", at.place);
@@ -212,10 +212,10 @@ template <typename Host> void CutterPath<Host>::change(Host &host, const Block &
 }
 
 template <typename Host> void CutterPath<Host>::changeInside(Host &host, const Block &block, const At &at) {
-  if (block.changesTip)
-    return leaveWithTip(host, at);
   if (block.cancelsByVector)
     return lose(host, "cutter compensation that is cancelled with a vector by I, J, K", at.place);
+  if (!block.side && block.changesTip)
+    return leaveWithTip(host, at);
   if (!block.side) {
     phase_ = Phase::Ending;
     return;
