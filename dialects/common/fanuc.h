@@ -105,6 +105,8 @@ inline Dialect makeFanuc(MachineKind machine) {
   if (machine == MachineKind::Milling) {
     dialect.behaviour.cutterOffsets = {{13001, 0}, {12001, 0}, 999};
     dialect.behaviour.lengthOffsets = {{11001, 0}, {10001, 0}, 999};
+  } else {
+    dialect.behaviour.noseOffsets = {{{2901, 17001}, {2201, 12001}, 99}, {2301, 13001}};
   }
   dialect.hasFanucParameters = true;
   dialect.switches.pointArcStops = Switch::Off; // an arc of 0 degrees

@@ -1,5 +1,5 @@
-// Cutter compensation as proofs follow it and as a run does: the same moves of the tool's centre, on random contours
-// along the axes whose size is an argument.
+// Cutter compensation as proofs follow it and as a run does: the same moves of the tool's centre, or of the tip of a
+// lathe tool, on random contours along the axes whose size is an argument.
 #include "proof/explore/exploration.h"
 #include "proof/replay/exact_run.h"
 #include "semantics/language_sample.h"
@@ -15,13 +15,14 @@ using prove::MovePath;
 using smt::TermId;
 
 constexpr double kRadius = 1.5;
+constexpr std::uint8_t kTip = 3; // of a lathe
 
 /// Lines and tangent quarters of circles, with square corners: lengths are multiples of the argument A.
 class SquareContour {
 public:
-  explicit SquareContour(unsigned seed) : random_(seed) {
-    text = fmt::format("O1\nG21 G17 G90 G40 G49 G80 G94\nG00 X0 Y0 Z5.\nG01 G4{} D1 {} F100.\n", 1 + random_() % 2,
-                       line());
+  SquareContour(unsigned seed, MachineKind machine) : random_(seed), isLathe_(machine == MachineKind::Turning) {
+    text = isLathe_ ? "O1\nG21 G18 G40 T0101\nG00 X0 Z0\n" : "O1\nG21 G17 G90 G40 G49 G80 G94\nG00 X0 Y0 Z5.\n";
+    text += fmt::format("G01 G4{} {} {} F100.\n", 1 + random_() % 2, isLathe_ ? "" : "D1", line());
     bool isBehindArc = false;
     for (int i = 0; i < 8; ++i) {
       const bool turns = random_() % 3 != 0;
@@ -30,16 +31,22 @@ public:
       isBehindArc = !turns;
       text += isBehindArc ? arc() : fmt::format("G01 {}\n", line());
       if (random_() % 6 == 0)
-        text += "G01 Z-1. F100.\n";
+        text += isLathe_ ? "M08\n" : "G01 Z-1. F100.\n";
     }
-    text += "G01 G40 X[200.*#1]\nM30\n";
+    text += fmt::format("G01 G40 {}[200.*#1]\nM30\n", isLathe_ ? 'Z' : 'X');
   }
   std::string text;
 
 private:
   void turn(int way) { std::tie(first_, second_) = std::pair(-way * second_, way * first_); }
   int length() { return 1 + static_cast<int>(random_() % 9); }
-  std::string point() const { return fmt::format("X[{}.*#1]Y[{}.*#1]", x_, y_); }
+  /// Of a lathe Z and the radius, which is half of X.
+  std::string point() const {
+    return isLathe_ ? fmt::format("Z[{}.*#1]X[{}.*#1]", x_, 2 * y_) : fmt::format("X[{}.*#1]Y[{}.*#1]", x_, y_);
+  }
+  std::string centre(int first, int second) const {
+    return fmt::format("{}[{}.*#1]{}[{}.*#1]", isLathe_ ? 'K' : 'I', first, isLathe_ ? 'I' : 'J', second);
+  }
   std::string line() {
     const int by = length();
     x_ += by * first_;
@@ -53,15 +60,21 @@ private:
     x_ += size * first_ + i;
     y_ += size * second_ + j;
     turn(way);
-    const std::string centre =
-        random_() % 2 == 0 ? fmt::format("I[{}.*#1]J[{}.*#1]", i, j) : fmt::format("R[{}.*#1]", size);
-    return fmt::format("G0{} {}{}\n", way > 0 ? 3 : 2, point(), centre);
+    const std::string where = random_() % 2 == 0 ? centre(i, j) : fmt::format("R[{}.*#1]", size);
+    return fmt::format("G0{} {}{}\n", way > 0 ? 3 : 2, point(), where);
   }
 
   std::mt19937 random_;
+  bool isLathe_;
   int x_ = 0, y_ = 0;
   int first_ = 1, second_ = 0;
 };
+
+/// Those that the samples move: Y of a lathe may stand anywhere.
+std::array<std::size_t, 3> axesOf(const Dialect &dialect) {
+  return dialect.machine == MachineKind::Turning ? std::array<std::size_t, 3>{0, 2, 2}
+                                                 : std::array<std::size_t, 3>{0, 1, 2};
+}
 
 /// The moves of the tool's centre, and whether the control stops, at one value of the argument.
 struct Followed {
@@ -72,20 +85,20 @@ struct Followed {
 
 class Proof {
 public:
-  explicit Proof(const LanguageSample &sample, const Dialect &dialect) : interpretation_(store_, dialect) {
+  explicit Proof(const LanguageSample &sample, const Dialect &dialect)
+      : interpretation_(store_, dialect), axes_(axesOf(dialect)) {
     prove::SymbolicState entry = prove::symbolicEntry(interpretation_);
     size_ = entry.locals[1].number;
     const ModalTable modes(dialect);
-    for (const std::uint16_t tenths : {150, 210}) { // no polar coordinates, millimetres
-      const Code &code = *findGCode(dialect, tenths);
-      entry.codes[code.group] = interpretation_.code(*modes.indexOf(code));
-    }
+    for (const std::uint16_t tenths : {150, 210}) // no polar coordinates, millimetres
+      if (const Code *code = findGCode(dialect, tenths))
+        entry.codes[code->group] = interpretation_.code(*modes.indexOf(*code));
     prove::ExploreOptions options;
     options.assumptions = {store_.logicalNot(entry.locals[1].vacant), store_.lessOrEqual(number(1), size_),
                            store_.lessOrEqual(size_, number(3))};
     options.moves = prove::KeepMoves::Yes;
     options.cutterOffset = [this](const prove::SymbolicValue &, const auto &) {
-      return std::optional(prove::PathOffset{.radius = number(kRadius)});
+      return std::optional(prove::PathOffset{.radius = number(kRadius), .tip = tipDirection(kTip)});
     };
     found_ = explore(interpretation_, *sample.set, sample.main(), entry, options);
   }
@@ -104,9 +117,9 @@ public:
     Followed followed;
     for (const prove::MoveInstance &each : found_.moves)
       if (each.path == MovePath::Centre && isOfRun(each.conditions))
-        followed.ends.push_back({numberOf(each.move.start[0].number), numberOf(each.move.start[1].number),
-                                 numberOf(each.move.start[2].number), numberOf(each.move.end[0].number),
-                                 numberOf(each.move.end[1].number), numberOf(each.move.end[2].number)});
+        followed.ends.push_back({numberOf(each.move.start[axes_[0]].number), numberOf(each.move.start[axes_[1]].number),
+                                 numberOf(each.move.start[axes_[2]].number), numberOf(each.move.end[axes_[0]].number),
+                                 numberOf(each.move.end[axes_[1]].number), numberOf(each.move.end[axes_[2]].number)});
     for (const prove::CutterClaim &claim : found_.cutterClaims) {
       if (!isOfRun(claim.conditions))
         continue;
@@ -121,6 +134,7 @@ private:
 
   smt::TermStore store_;
   prove::SymbolicInterpretation interpretation_;
+  std::array<std::size_t, 3> axes_;
   TermId size_{0};
   prove::Exploration found_;
 };
@@ -128,19 +142,27 @@ private:
 Followed ofRun(const LanguageSample &sample, const Dialect &dialect, double size) {
   RunOptions options;
   options.variables.set(1, ConcreteValue::of(size));
-  options.variables.set(13001, ConcreteValue::of(kRadius));
+  const bool isLathe = dialect.machine == MachineKind::Turning;
+  options.variables.set(isLathe ? 2201 : 13001, ConcreteValue::of(kRadius));
+  if (isLathe)
+    options.variables.set(2301, ConcreteValue::of(kTip));
   options.fuel = 10'000;
   options.numbers = numbersOfRun(dialect);
   options.words = WordRounding::None;
   options.cutter = CutterCompensation::Followed;
   const RunResult result = run(*sample.set, sample.main(), options);
+  const std::array<std::size_t, 3> axes = axesOf(dialect);
   Followed followed;
   followed.stops = result.end == RunEnd::Alarm;
   for (const RecordedMove &recorded : result.moves) {
     followed.isWhole = followed.isWhole && recorded.isOfTool;
-    for (const Move<ConcreteValue> &each : recorded.centre)
-      followed.ends.push_back({each.start[0].number, each.start[1].number, each.start[2].number, each.end[0].number,
-                               each.end[1].number, each.end[2].number});
+    if (recorded.centre.empty())
+      continue;
+    for (const RecordedMove &made : movesOfTip(recorded)) {
+      const Move<ConcreteValue> &each = made.move;
+      followed.ends.push_back({each.start[axes[0]].number, each.start[axes[1]].number, each.start[axes[2]].number,
+                               each.end[axes[0]].number, each.end[axes[1]].number, each.end[axes[2]].number});
+    }
   }
   return followed;
 }
@@ -156,11 +178,10 @@ void expectSame(const Followed &proof, const Followed &run) {
       EXPECT_NEAR(proof.ends[i][k], run.ends[i][k], 1e-6) << "move " << i;
 }
 
-TEST(CutterProofs, TheCentreGoesWhereARunGoes) {
-  const Dialect &dialect = *findDialect(allDialects(), "fanuc-30i");
+void expectSameContours(const Dialect &dialect) {
   std::size_t whole = 0, stopping = 0;
   for (unsigned seed = 1; seed <= 300; ++seed) {
-    const SquareContour contour(seed);
+    const SquareContour contour(seed, dialect.machine);
     SCOPED_TRACE(fmt::format("{}:\n{}", seed, contour.text));
     const LanguageSample sample(dialect, {contour.text});
     Proof proof(sample, dialect);
@@ -173,11 +194,16 @@ TEST(CutterProofs, TheCentreGoesWhereARunGoes) {
       whole += made.stops ? 0U : 1U;
       stopping += made.stops ? 1U : 0U;
     }
-    if (HasFailure())
+    if (::testing::Test::HasFailure())
       return;
   }
   EXPECT_GT(whole, 150U); // the others have corners between arcs that are not computed
   EXPECT_GT(stopping, 50U);
+}
+
+TEST(CutterProofs, TheCentreGoesWhereARunGoes) { expectSameContours(*findDialect(allDialects(), "fanuc-30i")); }
+TEST(CutterProofs, TheTipOfALatheToolGoesWhereARunGoes) {
+  expectSameContours(*findDialect(allDialects(), "fanuc-30i-lathe"));
 }
 
 } // namespace

@@ -312,6 +312,12 @@ struct OffsetMemory {
   std::uint32_t count = 0; // of offsets
 };
 
+/// The variables of tool offset 1 of a lathe that describe the nose.
+struct NoseMemory {
+  OffsetMemory radius;
+  std::array<std::uint32_t, 2> tip{}; // its direction; as for OffsetMemory
+};
+
 /// How the control computes and moves, where controls differ.
 struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
@@ -348,6 +354,7 @@ struct Behaviour {
   CutterCorners cutterCorners = CutterCorners::Lines;
   CutterEntry cutterEntry = CutterEntry::ToNext;
   OffsetMemory cutterOffsets, lengthOffsets; // of D and of H; a length is the sum of both, whichever is the wear
+  NoseMemory noseOffsets;                    // of T, on lathes
   std::array<std::uint16_t, 2> cutterDiameterCodes{}; // G41, G42 whose D is the diameter of the cutter itself
   /// Blocks that are read ahead under cutter compensation, the present one included; 0: as many as are needed.
   std::uint8_t cutterBlocks = 0;

@@ -38,7 +38,8 @@ struct RunOptions {
   WordRounding words = WordRounding::Increment;
   NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
   CutterCompensation cutter = CutterCompensation::NotFollowed;
-  /// The offset of a D that nothing else gives, in this run; null, or absent: such a path is not followed.
+  /// The offset of a D, or of the T of a lathe, that nothing else gives, in this run; null, or absent: such a path is
+  /// not followed.
   std::function<std::optional<CutterOffset<double>>(const RunOptions &, double number)> cutterRadius = nullptr;
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// What the read of an input in an instruction gives, in place of `variables.readings`; null: those.

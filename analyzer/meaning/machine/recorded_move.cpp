@@ -13,4 +13,12 @@ std::vector<RecordedMove> movesOfCentre(const RecordedMove &recorded) {
   return moves;
 }
 
+std::vector<RecordedMove> movesOfTip(const RecordedMove &recorded) {
+  std::vector<RecordedMove> moves = movesOfCentre(recorded);
+  for (RecordedMove &each : moves)
+    if (!recorded.centre.empty())
+      each.move = displaced(each.move, recorded.tip, [](ConcreteValue &value, double by) { value.number += by; });
+  return moves;
+}
+
 } // namespace feedhold

@@ -31,10 +31,14 @@ struct RecordedMove {
   /// The moves that the centre of the tool makes instead, beside the programmed one: cutter compensation is in force or
   /// ends.  Empty: it makes the programmed one.
   std::vector<Move<ConcreteValue>> centre = {};
+  /// X, Y, Z: from there to the point that is programmed without compensation; on a lathe, the tip beside the nose.
+  std::array<double, 3> tip = {};
 };
 
 /// The same as moves of the tool's centre: those of `centre`, or the programmed one.
 std::vector<RecordedMove> movesOfCentre(const RecordedMove &recorded);
+/// The same as moves of the point that is programmed without compensation.
+std::vector<RecordedMove> movesOfTip(const RecordedMove &recorded);
 
 /// Something that a run did not follow.
 struct RunNote {

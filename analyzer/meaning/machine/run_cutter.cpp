@@ -172,6 +172,8 @@ Move<ConcreteValue> RunCutter::centreArc(Move<ConcreteValue> move, const Element
 }
 
 std::optional<CutterOffset<double>> RunCutter::offsetOf(Context &context, const ConcreteValue &value) const {
+  if (hasTurret(context))
+    return noseOf(context, tipNumber(value.vacant ? 0 : value.number));
   if (!(value.number > 0 && value.number < 1e6))
     return std::nullopt;
   const auto number = static_cast<std::uint32_t>(value.number);
@@ -184,6 +186,28 @@ std::optional<CutterOffset<double>> RunCutter::offsetOf(Context &context, const 
     return CutterOffset<double>{isOn(context.dialect().switches.odi) ? sum / 2 : sum};
   }
   return otherwise_ ? otherwise_(value.number) : std::nullopt;
+}
+
+/// What no variable gives of it is that of the contract's tool.
+std::optional<CutterOffset<double>> RunCutter::noseOf(Context &context, double number) const {
+  const NoseMemory &offsets = context.behaviour().noseOffsets;
+  const bool hasVariables = number >= 1 && number <= offsets.radius.count && number == std::floor(number);
+  const auto given = [&](const std::array<std::uint32_t, 2> &firsts) {
+    return hasVariables ? firstGiven(context, firsts, static_cast<std::uint32_t>(number)) : std::nullopt;
+  };
+  const auto geometry = given(offsets.radius.geometry);
+  const auto wear = given(offsets.radius.wear);
+  const auto tip = given(offsets.tip);
+  const bool isTip = tip && *tip >= 0 && *tip < kTipDirections && *tip == std::floor(*tip);
+  const auto other = otherwise_ ? otherwise_(number) : std::nullopt;
+  if ((tip && !isTip) || (!other && !(tip && (geometry || wear))))
+    return std::nullopt;
+  CutterOffset<double> nose = other.value_or(CutterOffset<double>{});
+  if (geometry || wear)
+    nose.radius = geometry.value_or(0) + wear.value_or(0);
+  if (tip)
+    nose.tip = tipDirection(static_cast<std::uint8_t>(*tip));
+  return nose;
 }
 
 } // namespace feedhold

@@ -20,12 +20,14 @@ public:
   using Context = StepContext<ConcreteInterpretation>;
 
   using OtherOffset = std::function<std::optional<CutterOffset<double>>(double number)>;
-  /// `otherwise`: the offset of a D that no variable gives; absent: such a path is not followed.
+  /// `otherwise`: the offset that no variable gives, of a D or of a T; absent: such a path is not followed.
   RunCutter(std::vector<RecordedMove> &moves, OtherOffset otherwise = {})
       : moves_(moves), otherwise_(std::move(otherwise)) {}
 
   static constexpr std::string_view kNoOffset =
       "cutter compensation by an offset that is not given (give it by --offset D1=5)";
+  static constexpr std::string_view kNoNose = "tool nose radius compensation by an offset that is not given (give it "
+                                              "by --offset R1=0.8 --offset T1=3)";
 
   // ---- truths and lengths ----
   bool holds(bool truth) const { return truth; }
@@ -56,11 +58,14 @@ public:
                                 double radius) const;
 
   // ---- offsets ----
-  std::optional<CutterOffset<double>> offsetOf(Context &context, const ConcreteValue &number) const;
+  std::optional<CutterOffset<double>> offsetOf(Context &context, const ConcreteValue &value) const;
 
   // ---- moves ----
   const Move<ConcreteValue> &moveOf(std::size_t index) const { return moves_[index].move; }
-  void follow(std::size_t index, std::vector<Move<ConcreteValue>> centre) { moves_[index].centre = std::move(centre); }
+  void follow(std::size_t index, std::vector<Move<ConcreteValue>> centre, const std::array<double, 3> &tip) {
+    moves_[index].centre = std::move(centre);
+    moves_[index].tip = tip;
+  }
   void leave(std::size_t index, std::string_view) {
     moves_[index].isOfTool = moves_[index].isOfToolButForLength = moves_[index].isOfAxes = false;
   }
@@ -71,6 +76,8 @@ public:
   bool refuses(bool truth, AlarmKind, Place) const { return truth; }
 
 private:
+  std::optional<CutterOffset<double>> noseOf(Context &context, double number) const;
+
   std::vector<RecordedMove> &moves_;
   OtherOffset otherwise_;
 };

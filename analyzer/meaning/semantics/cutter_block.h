@@ -5,6 +5,7 @@
 #include "meaning/semantics/cutter_offset.h"
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/executed_words.h"
+#include "meaning/semantics/turret.h"
 
 #include <algorithm>
 #include <string_view>
@@ -17,9 +18,10 @@ template <typename N> struct CutterBlock {
   std::optional<CutterSide<N>> side;
   std::string_view whyNoRadius = {}; // the offset is not known; empty: it is
   bool offsetIsAssumed = false;
-  Plane plane = kPlaneXY;
+  CutterPlane plane = {};
   bool switches = false;         // G41 or G42 stands in the block
   bool isInCompensation = false; // G41 or G42 may be in force
+  bool changesTip = false;       // on a lathe, by a T word: another tool, or another offset
   /// Of a cycle that takes the offset of D itself (circle_pocket.h): what it is; empty: the block is none.
   std::string_view pocket = {};
   bool stopsReading = false;
@@ -31,7 +33,8 @@ template <typename N> struct CutterBlock {
 
 /// The host (cutter_geometry.h) also has
 ///
-///   offsetOf(context, value of D)  a radius of either sign; absent, kNoOffset: nothing gives it
+///   offsetOf(context, value)  by that of D a radius of either sign, on a lathe by that of T radius and tip; absent,
+///                             kNoOffset or kNoNose: nothing gives it
 template <typename Host>
 CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typename Host::Interpretation> &context,
                                                  const ExecutedWords<typename Host::Interpretation> &words);
@@ -92,6 +95,15 @@ template <ValueAlgebra R> std::string_view whyForeign(StepContext<R> &context, c
     if (setsSide(*word.code) && !mayBeArc && hasVector(words))
       return "cutter compensation that is given its vector by I, J, K";
   }
+  if (hasTurret(context) && words.find('T'))
+    return "tool nose radius compensation through another tool or tool offset";
+  // The cycles of a lathe are codes of motion, which stay in force for blocks that have none.
+  if (hasTurret(context) &&
+      !context.certain(context.inForce(
+          ModalKind::Motion,
+          {CodeAction::Rapid, CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
+          interpretation.truth(true))))
+    return "tool nose radius compensation through a cycle or a thread";
   const auto group = context.modes.groupOf(ModalKind::Cycle);
   if (group && interpretation.mayBe(interpretation.isOneOf(context.state.codes[*group],
                                                            context.modes.maskOf(ModalKind::Cycle, kDrillingCycles))))
@@ -139,9 +151,44 @@ void readSide(Host &host, StepContext<typename Host::Interpretation> &context,
     side.radius = withSign(isNegative ? -1 : 1, offset->radius);
     side.sign = isNegative ? -side.sign : side.sign;
   }
-  if (host.holds(circleMappingOf(context, block.plane).turnsOver))
+  if (host.holds(circleMappingOf(context, block.plane.axes).turnsOver))
     side.sign = -side.sign;
   block.side = side;
+}
+
+inline constexpr std::string_view kNoseBesidePlane = "tool nose radius compensation outside of the plane of X and Z";
+inline constexpr std::string_view kNoTip =
+    "tool nose radius compensation without a tool offset that is known to be in force";
+inline constexpr std::string_view kMirroredNose = "tool nose radius compensation under mirror image";
+inline constexpr std::string_view kNegativeNose = "tool nose radius compensation by a radius below 0";
+
+/// The same for a lathe, whose radius and tip belong to the tool offset.  With X up and Z to the right G41 goes on the
+/// left: from Z towards X is counterclockwise, as for arcs of G18 (FANUC B-63944EN-1/02, tool nose radius
+/// compensation, "offset direction").
+template <typename Host>
+void readNose(Host &host, StepContext<typename Host::Interpretation> &context, const Code &code,
+              CutterBlock<typename Host::Length> &block) {
+  using N = typename Host::Length;
+  block.side = CutterSide<N>{code.action == CodeAction::CompensationLeft ? 1 : -1, {}};
+  block.plane.byDiameter = true;
+  if (!planeOf(context) || block.plane.axes.normal != Axis::Y)
+    block.whyNoRadius = kNoseBesidePlane;
+  else if (!host.holds(tipIsKnown(context)))
+    block.whyNoRadius = kNoTip;
+  else if (host.holds(circleMappingOf(context, block.plane.axes).turnsOver))
+    block.whyNoRadius = kMirroredNose;
+  if (!block.whyNoRadius.empty())
+    return;
+  const auto nose = host.offsetOf(context, context.state.word('T'));
+  if (!nose)
+    block.whyNoRadius = Host::kNoNose;
+  else if (host.holds(host.negative(nose->radius, 0)))
+    block.whyNoRadius = kNegativeNose;
+  if (!block.whyNoRadius.empty())
+    return;
+  const auto along = [&](int direction) { return direction == 0 ? N{} : withSign(direction, nose->radius); };
+  block.side->radius = nose->radius;
+  block.side->tip = {along(nose->tip.z), along(nose->tip.x)};
 }
 
 } // namespace detail
@@ -160,9 +207,12 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
   }
   const auto plane = planeOf(context);
   if (plane)
-    block.plane = *plane;
+    block.plane.axes = *plane;
+  const bool isLathe = hasTurret(context);
+  block.changesTip = isLathe && words.find('T');
   block.namesPlane = !words.has(CodeAction::Dwell) &&
-                     (words.find(letterOf(block.plane.first)) || words.find(letterOf(block.plane.second)));
+                     (words.find(letterOf(block.plane.axes.first)) || words.find(letterOf(block.plane.axes.second)) ||
+                      (isLathe && (words.find('U') || words.find('W'))));
   const Code *code = detail::compensationCode(context);
   block.isInCompensation = mayCompensate(context);
   if (const Code *pocket = findPocket(words)) {
@@ -171,13 +221,14 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
     if (block.isInCompensation)
       block.whyNoRadius = "a circular pocket under cutter compensation";
   } else if (code != nullptr && detail::setsSide(*code)) {
-    detail::readSide(host, context, words, *code, block);
+    if (isLathe)
+      detail::readNose(host, context, *code, block);
+    else
+      detail::readSide(host, context, words, *code, block);
   } else if (block.isInCompensation) {
     block.side = CutterSide<N>{};
     block.whyNoRadius = "compensation by a code that is not followed";
   }
-  if (context.dialect().machine == MachineKind::Turning)
-    block.whyNoRadius = "tool nose radius compensation";
   return block;
 }
 

@@ -37,6 +37,7 @@ template <typename N> struct PlaneVector {
   friend PlaneVector operator+(PlaneVector a, PlaneVector b) { return {a.first + b.first, a.second + b.second}; }
   friend PlaneVector operator-(PlaneVector a, PlaneVector b) { return {a.first - b.first, a.second - b.second}; }
   friend PlaneVector operator*(N factor, PlaneVector v) { return {factor * v.first, factor * v.second}; }
+  friend bool operator==(const PlaneVector &, const PlaneVector &) = default;
 };
 template <typename N> N dot(PlaneVector<N> a, PlaneVector<N> b) { return a.first * b.first + a.second * b.second; }
 template <typename N> N cross(PlaneVector<N> a, PlaneVector<N> b) { return a.first * b.second - a.second * b.first; }
@@ -50,8 +51,27 @@ template <typename N> N withSign(int sign, N length) { return sign > 0 ? length 
 template <typename N> struct CutterSide {
   int sign = 1; // 1: left, -1: right
   N radius{};
+  /// From the centre to the point that is programmed without compensation: on a lathe, the tip beside the nose.
+  PlaneVector<N> tip{};
   friend bool operator==(const CutterSide &, const CutterSide &) = default;
 };
+
+/// The plane of a compensation, in which lengths are compared with the radius.
+struct CutterPlane {
+  Plane axes = kPlaneXY;
+  bool byDiameter = false; // coordinates of the second axis are diameters: X of a lathe
+};
+/// A coordinate along the second axis, as a length in the plane.
+template <typename Host>
+typename Host::Length secondOf(Host &host, const typename Host::Value &coordinate, const CutterPlane &plane) {
+  const typename Host::Length length = host.lengthOf(coordinate);
+  return plane.byDiameter ? host.quotient(length, host.number(2)) : length;
+}
+/// A length in the plane along the second axis, as a coordinate.
+template <typename Host>
+typename Host::Length secondCoordinate(Host &host, typename Host::Length length, const CutterPlane &plane) {
+  return plane.byDiameter ? host.number(2) * length : length;
+}
 
 /// A line or an arc of the contour.
 template <typename N> struct CutterElement {
@@ -73,8 +93,9 @@ template <typename N> struct CutterElement {
 enum class CutterRole : std::uint8_t { Contour, WayThere };
 /// Where a move goes in its plane; the caller knows that it goes somewhere.
 template <typename Host>
-CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move, const Plane &plane,
-                                               int side, CutterRole role = CutterRole::Contour);
+CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move,
+                                               const CutterPlane &plane, int side,
+                                               CutterRole role = CutterRole::Contour);
 /// Radius of the path of the tool's centre, at the start of an arc; below 0: the tool does not fit.
 template <typename Host>
 typename Host::Length centreRadius(Host &host, const CutterElement<typename Host::Length> &arc,
@@ -143,11 +164,12 @@ std::vector<PlaneVector<N>> outerVectors(Host &host, const CutterElement<N> &bef
 } // namespace detail
 
 template <typename Host>
-CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move, const Plane &plane,
-                                               int side, CutterRole role) {
+CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move,
+                                               const CutterPlane &plane, int side, CutterRole role) {
   using N = typename Host::Length;
   const auto at = [&](const auto &point) {
-    return PlaneVector<N>{host.lengthOf(point[indexOf(plane.first)]), host.lengthOf(point[indexOf(plane.second)])};
+    return PlaneVector<N>{host.lengthOf(point[indexOf(plane.axes.first)]),
+                          secondOf(host, point[indexOf(plane.axes.second)], plane)};
   };
   CutterElement<N> element;
   element.start = at(move.start);
@@ -155,7 +177,7 @@ CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename H
   element.isArc = isArc(move.kind);
   if (element.isArc) {
     element.way = move.kind == MoveKind::ArcClockwise ? -1 : 1;
-    element.centre = {host.lengthOf(move.firstCentre), host.lengthOf(move.secondCentre)};
+    element.centre = {host.lengthOf(move.firstCentre), secondOf(host, move.secondCentre, plane)};
     element.startRadius = host.magnitude(element.start - element.centre);
     element.endRadius = host.magnitude(element.end - element.centre);
     element.sweep = host.sweepOf(element, move.turns);

@@ -12,7 +12,7 @@
 // The host (cutter_geometry.h) numbers the moves in order, and also has
 //
 //   moveOf(number)               the programmed move
-//   follow(number, moves)        what the tool's centre makes of it
+//   follow(number, moves, tip)   what the tool's centre makes of it; how far its tip is from there, along X, Y and Z
 //   leave(number, why)           that is not known
 //   areInOneSpace(number, number)  the same zero point and units
 //   shift(value, length)
@@ -133,6 +133,9 @@ private:
   MoveOf shifted(Host &host, MoveOf move, Vector start, Vector end) const;
   MoveOf centreMove(Host &host, const Pending &pending, Vector to) const;
   std::vector<MoveOf> linksOf(Host &host, std::size_t index, const Join &join) const;
+  Vector ofTip() const { return Vector{} - side_.tip; } // offset of the centre where there is no compensation
+  void follow(Host &host, std::size_t index, std::vector<MoveOf> centre) const;
+  void leaveWithTip(Host &host, const At &at);
   bool stopsWhere(Host &host, Truth when, AlarmKind kind, const At &at);
   void stop(Host &host, AlarmKind kind, const At &at);
   void loseHere(Host &host, std::string_view reason, std::size_t index, const At &at);
@@ -140,7 +143,7 @@ private:
   const Dialect *dialect_;
   Phase phase_ = Phase::Off;
   CutterSide<N> side_;
-  Plane plane_ = kPlaneXY;
+  CutterPlane plane_;
   Vector at_; // from the programmed point to the centre, behind the last finished block
   std::optional<Pending> pending_;
   std::optional<Place> began_; // the last block with G41 or G42; absent: it was in force at the start
@@ -201,14 +204,15 @@ void CutterPath<Host>::takePocket(Host &host, const Block &block, const At &at, 
   for (std::size_t i = at.move; i < end; ++i) {
     const MoveOf &programmed = host.moveOf(i);
     const auto leaves = [&] { // the radius of the circle is larger than the offset
-      return host.lengthOf(programmed.end[indexOf(plane_.first)]) - host.lengthOf(programmed.firstCentre) +
+      return host.lengthOf(programmed.end[indexOf(plane_.axes.first)]) - host.lengthOf(programmed.firstCentre) +
              offset.first;
     };
     if (programmed.offsetsEnd &&
         stopsWhere(host, host.notPositive(leaves(), kStanding), AlarmKind::CutterInterference, at))
       return;
-    host.follow(i, {shifted(host, programmed, programmed.offsetsStart ? offset : Vector{},
-                            programmed.offsetsEnd ? offset : Vector{})});
+    follow(host, i,
+           {shifted(host, programmed, programmed.offsetsStart ? offset : Vector{},
+                    programmed.offsetsEnd ? offset : Vector{})});
   }
 }
 
@@ -241,7 +245,9 @@ template <typename Host> void CutterPath<Host>::change(Host &host, const Block &
     return;
   case Phase::On: return changeInside(host, block, at);
   case Phase::Ending:
-    if (block.side)
+    if (!block.side && block.changesTip)
+      leaveWithTip(host, at);
+    else if (block.side)
       lose(host, "cutter compensation that begins again before a move has ended it", at.place);
     return;
   case Phase::Lost: return;
@@ -251,16 +257,27 @@ template <typename Host> void CutterPath<Host>::change(Host &host, const Block &
 template <typename Host> void CutterPath<Host>::changeInside(Host &host, const Block &block, const At &at) {
   if (block.cancelsByVector)
     return lose(host, "cutter compensation that is cancelled with a vector by I, J, K", at.place);
+  if (!block.side && block.changesTip)
+    return leaveWithTip(host, at);
   if (!block.side) {
     phase_ = Phase::Ending;
     return;
   }
-  if (block.plane.normal != plane_.normal)
+  if (block.plane.axes.normal != plane_.axes.normal)
     return stop(host, AlarmKind::CutterPlane, at);
   if (!block.foreign.empty())
     return lose(host, block.foreign, at.place);
   if (block.switches || !(*block.side == side_) || !block.whyNoRadius.empty())
     lose(host, "cutter compensation whose side or offset changes, or is given again, before it ends", at.place);
+}
+
+/// On a lathe, `G40 X100. Z50. T0100`: the pending block ends square to itself by type A, whichever way the next one
+/// leads.  Where the next one begins is known to the tip of the other offset alone.
+template <typename Host> void CutterPath<Host>::leaveWithTip(Host &host, const At &at) {
+  if (pending_ && pending_->role == Role::Steady && !host.isOn(dialect_->switches.sup) && host.takeUndecided().empty())
+    failReading(host);
+  if (!alarm_)
+    lose(host, "tool nose radius compensation through another tool or tool offset", at.place);
 }
 
 // ---- moves ----
@@ -272,7 +289,7 @@ template <typename Host> bool CutterPath<Host>::isInPlane(Host &host, const Move
     return host.holds(
         host.none(host.lengthOf(move.end[indexOf(axis)]) - host.lengthOf(move.start[indexOf(axis)]), kStanding));
   };
-  return move.kind != MoveKind::Dwell && !(stands(plane_.first) && stands(plane_.second));
+  return move.kind != MoveKind::Dwell && !(stands(plane_.axes.first) && stands(plane_.axes.second));
 }
 
 template <typename Host> void CutterPath<Host>::move(Host &host, std::size_t index, const Block &block, const At &at) {
@@ -314,7 +331,7 @@ template <typename Host> void CutterPath<Host>::moveBeside(Host &host, std::size
   if (pending_)
     pending_->behind.push_back(index);
   else if (phase_ != Phase::Waiting)
-    host.follow(index, {shifted(host, host.moveOf(index), at_, at_)});
+    follow(host, index, {shifted(host, host.moveOf(index), at_, at_)});
 }
 
 template <typename Host>
@@ -334,7 +351,7 @@ void CutterPath<Host>::startUp(Host &host, std::size_t index, const Block &block
                              AlarmKind::CutterEntryTooShort, at))
     return;
   phase_ = Phase::On;
-  pending_ = Pending{index, Role::StartUp, element, {}, at.place, at.depth};
+  pending_ = Pending{index, Role::StartUp, element, ofTip(), at.place, at.depth};
 }
 
 /// The block before it is not made either: its end is not known.
@@ -422,7 +439,7 @@ template <typename Host> void CutterPath<Host>::cancel(Host &host, std::size_t i
     phase_ = Phase::Off;
     return;
   }
-  host.follow(index, {shifted(host, host.moveOf(index), at_, {})});
+  follow(host, index, {shifted(host, host.moveOf(index), at_, ofTip())});
   at_ = {};
   phase_ = Phase::Off;
 }
@@ -504,14 +521,14 @@ template <typename Host> void CutterPath<Host>::finishPending(Host &host, const 
   const bool linksFollow = join.isArc && !pending.behind.empty();
   if (!linksFollow)
     centre.insert(centre.end(), links.begin(), links.end());
-  host.follow(pending.move, std::move(centre));
+  follow(host, pending.move, std::move(centre));
   for (const std::size_t index : pending.behind) {
     std::vector<MoveOf> beside{shifted(host, host.moveOf(index), at_, at_)};
     if (linksFollow && index == pending.behind.back()) {
       links = linksOf(host, index, join);
       beside.insert(beside.end(), links.begin(), links.end());
     }
-    host.follow(index, std::move(beside));
+    follow(host, index, std::move(beside));
   }
   at_ = join.vectors.back();
 }
@@ -526,11 +543,19 @@ auto CutterPath<Host>::isReversed(Host &host, const Pending &pending, Vector to)
 
 template <typename Host>
 auto CutterPath<Host>::shifted(Host &host, MoveOf move, Vector start, Vector end) const -> MoveOf {
-  host.shift(move.start[indexOf(plane_.first)], start.first);
-  host.shift(move.start[indexOf(plane_.second)], start.second);
-  host.shift(move.end[indexOf(plane_.first)], end.first);
-  host.shift(move.end[indexOf(plane_.second)], end.second);
+  host.shift(move.start[indexOf(plane_.axes.first)], start.first);
+  host.shift(move.start[indexOf(plane_.axes.second)], secondCoordinate(host, start.second, plane_));
+  host.shift(move.end[indexOf(plane_.axes.first)], end.first);
+  host.shift(move.end[indexOf(plane_.axes.second)], secondCoordinate(host, end.second, plane_));
   return move;
+}
+
+template <typename Host>
+void CutterPath<Host>::follow(Host &host, std::size_t index, std::vector<MoveOf> centre) const {
+  std::array<N, 3> tip{};
+  tip[indexOf(plane_.axes.first)] = side_.tip.first;
+  tip[indexOf(plane_.axes.second)] = secondCoordinate(host, side_.tip.second, plane_);
+  host.follow(index, std::move(centre), tip);
 }
 
 template <typename Host>
@@ -553,9 +578,9 @@ auto CutterPath<Host>::linksOf(Host &host, std::size_t index, const Join &join) 
     link.turns = 1;
     if (join.isArc) { // on the outside the contour turns away from the tool
       link.kind = side_.sign > 0 ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
-      link.plane = plane_;
-      link.firstCentre = programmed.end[indexOf(plane_.first)];
-      link.secondCentre = programmed.end[indexOf(plane_.second)];
+      link.plane = plane_.axes;
+      link.firstCentre = programmed.end[indexOf(plane_.axes.first)];
+      link.secondCentre = programmed.end[indexOf(plane_.axes.second)];
     }
     if (!host.holds(host.standing(join.vectors[i] - join.vectors[i - 1], kStanding)))
       links.push_back(link);

@@ -37,4 +37,19 @@ template <typename Value> struct Move {
   bool offsetsEnd = false;
 };
 
+/// The same move elsewhere.  `by`: how far, along X, Y and Z; `add` adds such a length to a coordinate.
+template <typename Value, typename Length, typename Add>
+Move<Value> displaced(Move<Value> move, const std::array<Length, 3> &by, const Add &add) {
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    add(move.start[i], by[i]);
+    add(move.end[i], by[i]);
+  }
+  const auto along = [&](Axis axis) { return indexOf(axis) < by.size() ? by[indexOf(axis)] : Length{}; };
+  if (isArc(move.kind)) {
+    add(move.firstCentre, along(move.plane.first));
+    add(move.secondCentre, along(move.plane.second));
+  }
+  return move;
+}
+
 } // namespace feedhold

@@ -37,12 +37,22 @@ template <ValueAlgebra R> typename R::Value machineOriginOf(StepContext<R> &cont
   return hasTurret(context) ? context.interpretation.add(origin, tipDistance(context, axis)) : origin;
 }
 
-/// The offset of a T word is in force: its last two digits are not 0.
-template <ValueAlgebra R> typename R::Truth tipInForce(StepContext<R> &context) {
+/// The number of the offset that a T word names: its last two digits.
+inline double tipNumber(double toolWord) {
   constexpr double kOffsets = 100;
+  return std::fmod(toolWord, kOffsets);
+}
+
+/// The offset of a T word is in force: its number is not 0.
+template <ValueAlgebra R> typename R::Truth tipInForce(StepContext<R> &context) {
   R &interpretation = context.interpretation;
-  const auto number = interpretation.constantOf(interpretation.asNumber(context.state.word('T')));
-  return interpretation.truth(number && std::fmod(*number, kOffsets) != 0);
+  const auto word = interpretation.constantOf(interpretation.asNumber(context.state.word('T')));
+  return interpretation.truth(word && tipNumber(*word) != 0);
+}
+
+/// Coordinates are those of the tip, if they were so at the start: no T word has come since, or one with an offset.
+template <ValueAlgebra R> typename R::Truth tipIsKnown(StepContext<R> &context) {
+  return context.either(context.interpretation.negation(context.state.lengthChanged), tipInForce(context));
 }
 
 /// Another offset, or another value of it: the zero point moves while the machine stands still.
@@ -54,14 +64,16 @@ template <ValueAlgebra R> void changeTip(StepContext<R> &context, typename R::Tr
     shiftCoordinate(context, axis, interpretation.select(when, tipDistance(context, axis), context.zero()));
 }
 
+/// One of these variables may be a tool offset of a lathe: of its tip, or of its nose.
+inline bool mayBeTipOffset(std::uint32_t low, std::uint32_t high) {
+  constexpr std::array<std::array<std::uint32_t, 2>, 2> kOffsets = {{{2001, 2999}, {10001, 19999}}};
+  return std::ranges::any_of(kOffsets, [&](const auto &each) { return low <= each[1] && each[0] <= high; });
+}
+
 /// A variable is written that may be an offset in force.
 template <ValueAlgebra R>
 void changeTipOffset(StepContext<R> &context, const VariableRange &range, std::uint32_t cell) {
-  constexpr std::array<std::array<std::uint32_t, 2>, 2> kOffsets = {{{2001, 2999}, {10001, 19999}}};
-  const bool isOffset = range.role == VariableRole::Stored && std::ranges::any_of(kOffsets, [&](const auto &each) {
-                          return each[0] <= cell && cell <= each[1];
-                        });
-  if (isOffset)
+  if (range.role == VariableRole::Stored && mayBeTipOffset(cell, cell))
     changeTip(context, context.interpretation.truth(true));
 }
 

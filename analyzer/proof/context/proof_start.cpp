@@ -162,6 +162,8 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
 OffsetOfCutter ProofStart::cutterOffsets(const Contract &contract) {
   if (!contract.tool && contract.offsets.empty())
     return nullptr;
+  if (interpretation_.dialect().machine == MachineKind::Turning)
+    return [this, &contract](const SymbolicValue &, const auto &) { return noseOf(contract); };
   return [this, &contract](const SymbolicValue &number, const auto &proves) -> std::optional<PathOffset> {
     const auto termOf = [&](ExpressionId expression) { return terms_->number(expression, entry_, entry_); };
     const RadiusOffset *found = nullptr;
@@ -178,6 +180,14 @@ OffsetOfCutter ProofStart::cutterOffsets(const Contract &contract) {
       return std::nullopt;
     return PathOffset{.radius = termOf(contract.tool->radius), .isAssumed = true};
   };
+}
+
+/// Of a lathe: that of the tool, whichever offset it is; `@OFFSET` tells offsets of D.
+std::optional<PathOffset> ProofStart::noseOf(const Contract &contract) {
+  if (!contract.tool || !contract.offsets.empty())
+    return std::nullopt;
+  return PathOffset{.radius = terms_->number(contract.tool->radius, entry_, entry_),
+                    .tip = tipDirection(contract.tool->direction)};
 }
 
 /// A range holds one radius for each D, in the whole run.

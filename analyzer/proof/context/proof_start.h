@@ -79,6 +79,7 @@ private:
   void readContract(const ProofSubject &subject);
   void leaveMappingsOpen(const ProofSubject &subject);
   OffsetOfCutter cutterOffsets(const Contract &contract);
+  std::optional<PathOffset> noseOf(const Contract &contract);
   PathOffset rangeOf(const RadiusOffset &offset, smt::TermId number);
 
   smt::TermStore store_;

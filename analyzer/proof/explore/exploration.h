@@ -191,13 +191,14 @@ struct Exploration {
   std::optional<std::string> unmodelledAt(Place place) const;
 };
 
-/// An offset of cutter compensation: a radius, under conditions on its own variables.
+/// An offset of cutter compensation: a radius, under conditions on its own variables; of a lathe also the tip.
 struct PathOffset {
   smt::TermId radius;
   std::vector<smt::TermId> conditions = {};
   bool isAssumed = false; // nothing says so but the tool of the contract
+  TipDirection tip = {};
 };
-/// Of a D on a path, whose conditions prove what is asked.  Absent: nothing gives it.
+/// Of a D, or of the T of a lathe, on a path, whose conditions prove what is asked.  Absent: nothing gives it.
 using OffsetOfCutter = std::function<std::optional<PathOffset>(const SymbolicValue &number,
                                                                const std::function<bool(smt::TermId)> &proves)>;
 
@@ -234,7 +235,7 @@ struct ExploreOptions {
   /// that number of its own.  False: for single runs of a started program.
   bool mayBeCalled = true;
   KeepMoves moves = KeepMoves::No;
-  /// The offset of a D; empty: cutter compensation is not followed.  Moves are kept.
+  /// The offset of a D or of a T; empty: cutter compensation is not followed.  Moves are kept.
   OffsetOfCutter cutterOffset = {};
   bool keepWrites = false;
   /// Some of the steps are left for the claims, and for runs that refute them, if there are too many paths.

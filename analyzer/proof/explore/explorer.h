@@ -91,10 +91,11 @@ private:
   bool takeCutter(Path &path, const std::vector<MoveInstance> &moves, smt::TermId besidePath);
   bool settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff);
   std::optional<PathOffset> offsetOf(Path &path, const SymbolicValue &number);
-  void giveCentre(MoveInstance &move);
+  void giveCentre(const Path &path, MoveInstance &move);
   bool mayRestoreSide(Path &path);
   void decideVacancies(const Path &path, MoveInstance &instance);
-  bool startsThere(const MoveInstance &move, const std::array<smt::TermId, 2> &end) const;
+  std::array<smt::TermId, 2> inCutterPlane(const Path &path, const std::array<SymbolicValue, kAxisCount> &point);
+  bool isLathe(const Path &path) const;
   void stopInCutter(const Path &path, const CutterTrack &track);
   void leaveOpen(PathCutter &host, CutterTrack &track, std::string_view why);
   void loseCutter(Path &path, std::string_view reason);

@@ -14,12 +14,14 @@ using smt::TermId;
 
 namespace {
 
-/// The path writes offsets of D, has written them, or started with them in its variables.
+/// The path writes offsets of D or of T, has written them, or started with them in its variables.
 bool touchesOffsets(const Dialect &dialect, const SymbolicState &state,
                     const std::map<std::uint32_t, SymbolicValue> &read) {
   const OffsetMemory &offsets = dialect.behaviour.cutterOffsets;
   const std::array firsts{offsets.geometry[0], offsets.geometry[1], offsets.wear[0], offsets.wear[1]};
   const auto holdsOffset = [&](std::uint32_t low, std::uint32_t high) {
+    if (dialect.machine == MachineKind::Turning)
+      return mayBeTipOffset(low, high);
     return std::any_of(firsts.begin(), firsts.end(),
                        [&](std::uint32_t first) { return first != 0 && low < first + offsets.count && first <= high; });
   };
@@ -99,7 +101,7 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
   PathCutter host = cutterOf(path, *track, store_.yes());
   const bool wasOff = !path.cutter;
   path.cutter = track;
-  if (!moves.empty() && track->end && !startsThere(moves.front(), *track->end)) {
+  if (!moves.empty() && track->end && inCutterPlane(path, moves.front().move.start) != *track->end) {
     loseCutter(path, "cutter compensation through a change of the position without a move");
     return false;
   }
@@ -107,11 +109,11 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
   const std::size_t first = track->next;
   for (MoveInstance move : moves) {
     decideVacancies(path, move);
-    giveCentre(move);
+    giveCentre(path, move);
     track->open.emplace(track->next++, std::move(move));
   }
   if (!moves.empty())
-    track->end = {moves.back().move.end[0].number, moves.back().move.end[1].number};
+    track->end = inCutterPlane(path, moves.back().move.end);
   track->walk.take(host, block, {path.at, path.frames.size() - 1}, first, track->next);
   return settleCutter(path, *track, first, wasOff);
 }
@@ -159,28 +161,36 @@ void Explorer::decideVacancies(const Path &path, MoveInstance &instance) {
     decide(instance.radius->size);
 }
 
-/// Of an arc by R whose centre is told by the form of its terms.
-void Explorer::giveCentre(MoveInstance &move) {
-  if (!move.radius)
+/// Of an arc by R whose centre is told by the form of its terms.  Of a lathe in the plane of Z and the radius.
+void Explorer::giveCentre(const Path &path, MoveInstance &move) {
+  const bool isOfLathe = isLathe(path);
+  if (!move.radius || (isOfLathe && move.move.plane.normal != Axis::Y))
     return;
-  const auto at = [](const auto &point) {
+  const TermId two = store_.number(smt::Number(2));
+  const auto at = [&](const auto &point) {
+    if (isOfLathe)
+      return geometry::TermPoint{point[2].number, store_.divide(point[0].number, two), store_.number(smt::Number(0))};
     return geometry::TermPoint{point[0].number, point[1].number, point[2].number};
   };
-  const geometry::ToolPath path(store_, {.kind = move.move.kind,
-                                         .start = at(move.move.start),
-                                         .end = at(move.move.end),
-                                         .plane = move.move.plane,
-                                         .turns = move.move.turns,
-                                         .radius = move.radius});
-  if (path.move().radius)
+  const geometry::ToolPath arc(store_, {.kind = move.move.kind,
+                                        .start = at(move.move.start),
+                                        .end = at(move.move.end),
+                                        .plane = isOfLathe ? kPlaneXY : move.move.plane,
+                                        .turns = move.move.turns,
+                                        .radius = move.radius});
+  if (arc.move().radius)
     return;
-  move.move.firstCentre.number = path.move().firstCentre;
-  move.move.secondCentre.number = path.move().secondCentre;
+  const TermId second = arc.move().secondCentre;
+  move.move.firstCentre.number = arc.move().firstCentre;
+  move.move.secondCentre.number = isOfLathe ? store_.multiply(two, second) : second;
 }
 
-bool Explorer::startsThere(const MoveInstance &move, const std::array<TermId, 2> &end) const {
-  return move.move.start[0].number == end[0] && move.move.start[1].number == end[1];
+/// X and Y; of a lathe, X and Z.
+std::array<TermId, 2> Explorer::inCutterPlane(const Path &path, const std::array<SymbolicValue, kAxisCount> &point) {
+  const Axis second = isLathe(path) ? Axis::Z : Axis::Y;
+  return {point[indexOf(Axis::X)].number, point[indexOf(second)].number};
 }
+bool Explorer::isLathe(const Path &path) const { return fileOf(path).dialect->machine == MachineKind::Turning; }
 
 /// What has become of the compensation in the block.  False: its moves, from `first` on, are left to the explorer.
 bool Explorer::settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff) {

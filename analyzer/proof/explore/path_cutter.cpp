@@ -100,12 +100,13 @@ std::optional<CutterOffset<TermLength>> PathCutter::offsetOf(Context &, const Va
   const auto offset = explored_.offsetOf(number);
   if (!offset)
     return std::nullopt;
-  return CutterOffset<TermLength>{{store_, offset->radius}, offset->isAssumed};
+  return CutterOffset<TermLength>{{store_, offset->radius}, offset->isAssumed, offset->tip};
 }
 
 const Move<SymbolicValue> &PathCutter::moveOf(std::size_t index) const { return track_.open.at(index).move; }
 
-void PathCutter::follow(std::size_t index, const std::vector<Move<Value>> &centre) {
+void PathCutter::follow(std::size_t index, const std::vector<Move<Value>> &centre,
+                        const std::array<TermLength, 3> &tip) {
   auto node = track_.open.extract(index);
   MoveInstance &programmed = node.mapped();
   programmed.point.withoutCompensation.term = track_.rests;
@@ -115,7 +116,7 @@ void PathCutter::follow(std::size_t index, const std::vector<Move<Value>> &centr
   programmed.path = MovePath::Programmed;
   explored_.record(std::move(programmed));
   for (const Move<Value> &move : centre) {
-    ofCentre.move = move;
+    ofCentre.move = displaced(move, tip, [this](Value &value, TermLength by) { shift(value, by); });
     explored_.record(ofCentre);
   }
 }

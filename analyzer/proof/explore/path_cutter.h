@@ -69,6 +69,9 @@ public:
   static constexpr std::string_view kNoOffset = "cutter compensation by an offset that is not known; `@OFFSET` tells "
                                                 "it for a D whose offset the program does not "
                                                 "write, in the units of the start, which `@MODAL` tells";
+  static constexpr std::string_view kNoNose =
+      "tool nose radius compensation by an offset that is not known; `@TOOL TIP` tells it where the program does not "
+      "write tool offsets, in the units of the start, which `@MODAL` tells";
 
   // ---- truths and lengths ----
   bool holds(Truth truth);
@@ -101,7 +104,8 @@ public:
 
   // ---- moves ----
   const Move<Value> &moveOf(std::size_t index) const;
-  void follow(std::size_t index, const std::vector<Move<Value>> &centre);
+  /// Recorded are the moves of the point that is programmed without compensation: of the tip, on a lathe.
+  void follow(std::size_t index, const std::vector<Move<Value>> &centre, const std::array<TermLength, 3> &tip);
   void leave(std::size_t index, std::string_view why);
   bool areInOneSpace(std::size_t a, std::size_t b) const;
   void shift(Value &value, Length length) { value.number = store_.add(value.number, term(length)); }
@@ -127,7 +131,7 @@ struct CutterTrack {
   std::map<std::size_t, MoveInstance> open; // moves by number: what the tool's centre makes of them comes later
   std::size_t next = 0;                     // number of the next move
   smt::TermId rests;                        // what all of it rests on: the tool stood on the path before, and so on
-  std::optional<std::array<smt::TermId, 2>> end = {}; // X and Y where the last move ended
+  std::optional<std::array<smt::TermId, 2>> end = {}; // X and Y where the last move ended; of a lathe, X and Z
 };
 
 } // namespace feedhold::prove

@@ -151,11 +151,12 @@ public:
     for (std::size_t i = 0; i < moves.size(); ++i)
       if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
         look(inSpace(moves[i], 0), i);
-      else if (space_.tip)
-        look(inSpace(moves[i], tool_.radius), i);
       else
-        for (const RecordedMove &move : movesOfCentre(moves[i]))
-          look(claim_ == SpaceClaim::Machine ? inMachine(move) : ofTip(move), i);
+        for (const RecordedMove &move : movesOfTip(moves[i]))
+          look(space_.tip                      ? inSpace(move, tool_.radius)
+               : claim_ == SpaceClaim::Machine ? inMachine(move)
+                                               : ofTip(move),
+               i);
     if (worst && space_.tip)
       worst->at = fromHalfPlane(worst->at, *space_.tip, claim_ == SpaceClaim::Travel ? 0 : tool_.radius);
     for (std::size_t axis = 0; worst && claim_ == SpaceClaim::Machine && axis < worst->at.size(); ++axis)

@@ -1,8 +1,5 @@
 #include "proof/geometry/half_plane.h"
 
-#include "base/support/check.h"
-
-#include <array>
 #include <cstddef>
 
 namespace feedhold::geometry {
@@ -16,13 +13,6 @@ bool leavesPlane(const Move<ConcreteValue> &move) {
 }
 
 } // namespace
-
-TipDirection tipDirection(std::uint8_t number) {
-  constexpr std::array<TipDirection, 9> kDirections = {
-      {{0, 0}, {1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
-  FEEDHOLD_CHECK(number < kDirections.size(), "the reader of contracts lets only these numbers pass");
-  return kDirections[number];
-}
 
 RecordedMove inHalfPlane(RecordedMove recorded, const TipDirection &direction, double radius) {
   Move<ConcreteValue> &move = recorded.move;

@@ -7,17 +7,10 @@
 #pragma once
 
 #include "meaning/machine/machine.h"
+#include "meaning/semantics/tip_direction.h"
 #include "proof/geometry/shapes.h"
 
 namespace feedhold::geometry {
-
-/// Where the programmed point lies from the centre of the nose, in radii along X and Z: -1, 0 or 1.
-struct TipDirection {
-  int x;
-  int z;
-};
-/// Of the number that controls give it (X up, Z to the right; docs/geometry.md); 0: the centre itself.
-TipDirection tipDirection(std::uint8_t number);
 
 /// A move of the programmed point, as one of the centre of a nose of this radius.  Whatever leads out of the plane is
 /// not of the tool.

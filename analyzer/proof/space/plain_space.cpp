@@ -28,11 +28,21 @@ std::vector<geometry::PlainRegion> named(const std::vector<Region> &regions, con
   return result;
 }
 
+/// The nose of the tool, whichever offset it is; `@OFFSET` tells offsets of D.
+std::optional<CutterOffset<double>> noseIn(const Contract &contract, ContractNumbers &numbers) {
+  if (!contract.tool || !contract.offsets.empty())
+    return std::nullopt;
+  return CutterOffset<double>{.radius = numbers.number(contract.tool->radius),
+                              .tip = tipDirection(contract.tool->direction)};
+}
+
 /// Of a range its lower end.
 std::optional<CutterOffset<double>> offsetIn(const ProgramSet &programs, Callee program, const FileContracts &contracts,
                                              const RunOptions &run, double number) {
   ContractNumbers numbers(programs, program, contracts, run);
   const Contract &contract = *contracts.of(program.program);
+  if (programs.file(program.file).dialect->machine == MachineKind::Turning)
+    return noseIn(contract, numbers);
   const RadiusOffset *found = nullptr;
   for (const RadiusOffset &offset : contract.offsets)
     if (offset.number ? numbers.number(*offset.number) == number : found == nullptr)
@@ -70,7 +80,7 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   if (programs.file(program.file).dialect->machine == MachineKind::Turning) {
     shapes.lathe = {[](double number) { return number / 2; }, [](double number) { return number * 2; },
                     [](double number) { return -number; }, [](double number) { return std::abs(number); }, 0};
-    space.tip = geometry::tipDirection(contract->tool ? contract->tool->direction : 0);
+    space.tip = tipDirection(contract->tool ? contract->tool->direction : 0);
   }
   if (contract->tool)
     space.tool = shapes.tool(*contract->tool, 0);

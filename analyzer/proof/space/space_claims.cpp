@@ -136,9 +136,8 @@ std::optional<LatheTip> SpaceClaims::tip() const {
   if (dialect_.machine != MachineKind::Turning)
     return std::nullopt;
   if (!contract_.tool)
-    return LatheTip{geometry::tipDirection(0), store_.number(smt::Number(0))};
-  return LatheTip{geometry::tipDirection(contract_.tool->direction),
-                  terms_.number(contract_.tool->radius, entry_, entry_)};
+    return LatheTip{tipDirection(0), store_.number(smt::Number(0))};
+  return LatheTip{tipDirection(contract_.tool->direction), terms_.number(contract_.tool->radius, entry_, entry_)};
 }
 
 std::optional<Diameters<TermId>> SpaceClaims::diameters() const {

@@ -9,7 +9,7 @@
 namespace feedhold::prove {
 
 struct LatheTip {
-  geometry::TipDirection direction;
+  TipDirection direction;
   smt::TermId radius;
 };
 

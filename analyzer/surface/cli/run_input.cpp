@@ -93,21 +93,41 @@ std::optional<Error> addReadings(const std::string &text, const Project &program
   return std::nullopt;
 }
 
-/// `D1=5.`: what the register of the cutter offset holds.
+/// The variables of an offset register: by its letter, as offset pages show it.
+struct OffsetVariables {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0; // 0: the control keeps none in variables
+};
+/// Absent: no such register.
+std::optional<OffsetVariables> offsetVariables(const Dialect &dialect, char letter) {
+  const auto &[radius, tip] = dialect.behaviour.noseOffsets;
+  const OffsetMemory &cutter = dialect.behaviour.cutterOffsets;
+  const bool isLathe = dialect.machine == MachineKind::Turning;
+  if (isLathe && letter == 'R')
+    return OffsetVariables{radius.geometry.front(), radius.count};
+  if (isLathe && letter == 'T')
+    return OffsetVariables{tip.front(), radius.count};
+  return !isLathe && letter == 'D' ? std::optional(OffsetVariables{cutter.geometry.front(), cutter.count})
+                                   : std::nullopt;
+}
+
+/// `D1=5.`: what the register of the cutter offset holds.  Of a lathe `R1=.8` and `T1=3`, the nose of its offset 1.
 std::optional<Error> addOffset(const std::string &text, const Project &programs, GivenVariables &given) {
+  const Dialect &dialect = programs.dialect();
   const Result<Setting> setting = settingFrom(text);
   const std::string name = setting ? setting.value().name : "";
-  const auto number =
-      name.size() > 1 && toUpper(name.front()) == 'D' ? numberFrom(std::string_view(name).substr(1)) : std::nullopt;
-  if (!number)
-    return Error{fmt::format("--offset: `{}` is not of the form D1=5", text)};
-  const OffsetMemory &offsets = programs.dialect().behaviour.cutterOffsets;
-  if (offsets.count == 0)
+  const auto number = name.size() > 1 ? numberFrom(std::string_view(name).substr(1)) : std::nullopt;
+  const auto offsets = number ? offsetVariables(dialect, toUpper(name.front())) : std::nullopt;
+  if (!offsets)
+    return Error{fmt::format("--offset: `{}` is not of the form {}", text,
+                             dialect.machine == MachineKind::Turning ? "R1=0.8 or T1=3" : "D1=5")};
+  if (offsets->count == 0)
     return Error{fmt::format("--offset: `{}`: this control keeps no cutter offsets in variables", text)};
-  if (*number != std::floor(*number) || *number < 1 || *number > offsets.count)
-    return Error{fmt::format("--offset: `{}`: this control has the offsets D1 to D{}", text, offsets.count)};
-  const std::uint32_t variable = offsets.geometry.front() + static_cast<std::uint32_t>(*number) - 1;
-  given.set(cellOf(programs.dialect(), variable), ConcreteValue::of(setting.value().value));
+  if (*number != std::floor(*number) || *number < 1 || *number > offsets->count)
+    return Error{fmt::format("--offset: `{0}`: this control has the offsets {1}1 to {1}{2}", text,
+                             toUpper(name.front()), offsets->count)};
+  const std::uint32_t variable = offsets->first + static_cast<std::uint32_t>(*number) - 1;
+  given.set(cellOf(dialect, variable), ConcreteValue::of(setting.value().value));
   return std::nullopt;
 }
 
@@ -237,9 +257,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
   app.add_option("--var", input.variables, "set a variable at the start: 500=3 or <depth>=2.5 (may be repeated)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--offset", input.offsets,
-                 "what the register of a cutter offset holds: D1=5, for G41 and G42 (may be repeated)")
-      ->type_name("D=VALUE")
+  app.add_option(
+         "--offset", input.offsets,
+         "what the register of an offset holds for G41 and G42: D1=5; of a lathe R1=0.8 and T1=3 (may be repeated)")
+      ->type_name("REGISTER=VALUE")
       ->allow_extra_args(false);
   app.add_option("--input", input.readings,
                  "numbers that the reads of an input give in order; the last stays: \"#1000=0,0,1\" (may be repeated)")

@@ -155,10 +155,11 @@ private:
         ++tooFar_;
         continue;
       }
-      result.moves.push_back(inSpace(converted(move, unit_)));
+      RecordedMove &programmed = result.moves.emplace_back(inSpace(converted(move, unit_)));
+      programmed.centre = move.centre; // that there is one: classOf
       if (!move.centre.empty())
         for (const RecordedMove &step : movesOfCentre(move))
-          result.moves.push_back(converted(step, unit_));
+          result.moves.push_back(inSpace(converted(step, unit_)));
     }
     return result;
   }

@@ -233,6 +233,21 @@ bool isMeant(const RecordedMove &recorded, SpaceClaim claim) {
                                           : isCutting(kind) || kind == MoveKind::Rapid;
 }
 
+/// Where the tool is wrong on a move, and the wrong point of it.
+std::optional<std::pair<SpacePoint, SpacePoint>> seenOn(const PlainSpace &space, SpaceClaim claim, std::size_t region,
+                                                        const RecordedMove &move, double depth, Random &random) {
+  const SpacePoint start = inSpace(move, move.move.start), end = inSpace(move, move.move.end);
+  const bool goesAcross = std::hypot(start[0] - end[0], start[1] - end[1]) > depth;
+  if (claim == SpaceClaim::Clearance && goesAcross && std::min(start[2], end[2]) < *space.clearance - depth)
+    return std::pair(start, end);
+  for (int tip = 0; tip < kTips; ++tip) {
+    const SpacePoint at = space.tip ? noseAt(space, anyTip(byRadius(move), random), claim) : anyTip(move, random);
+    if (const auto wrong = wrongPoint(space, claim, region, at, depth, random))
+      return std::pair(at, *wrong);
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 SpacePoint anyTip(const RecordedMove &recorded, Random &random) {
@@ -286,16 +301,10 @@ std::optional<SeenGouge> seenGouge(const PlainSpace &space, SpaceClaim claim, st
   for (std::size_t i = 0; i < moves.size(); ++i) {
     if (moves[i].own != own || !isMeant(moves[i], claim))
       continue;
-    const SpacePoint start = inSpace(moves[i], moves[i].move.start), end = inSpace(moves[i], moves[i].move.end);
-    const bool goesAcross = std::hypot(start[0] - end[0], start[1] - end[1]) > depth;
-    if (claim == SpaceClaim::Clearance && goesAcross && std::min(start[2], end[2]) < *space.clearance - depth)
-      return SeenGouge{i, start, end};
-    for (int tip = 0; tip < kTips; ++tip) {
-      const SpacePoint at =
-          space.tip ? noseAt(space, anyTip(byRadius(moves[i]), random), claim) : anyTip(moves[i], random);
-      if (const auto wrong = wrongPoint(space, claim, region, at, depth, random))
-        return SeenGouge{i, at, *wrong};
-    }
+    const std::vector<RecordedMove> made = claim == SpaceClaim::Travel ? std::vector{moves[i]} : movesOfTip(moves[i]);
+    for (const RecordedMove &move : made)
+      if (const auto seen = seenOn(space, claim, region, move, depth, random))
+        return SeenGouge{i, seen->first, seen->second};
   }
   return std::nullopt;
 }

@@ -65,7 +65,7 @@ private:
   }
 
   void part() {
-    switch (random_.below(13)) {
+    switch (random_.below(15)) {
     case 0:
     case 1:
     case 2: return moves();
@@ -78,6 +78,8 @@ private:
     case 9: return threadPasses();
     case 10:
     case 11: return contour();
+    case 12:
+    case 13: return nose();
     default: return add(odd());
     }
   }
@@ -177,6 +179,30 @@ private:
     add(fmt::format("N{}G1{}", last, isTurning ? "X44." : "Z2."));
     if (!random_.oneIn(3))
       add(fmt::format("G70P{}Q{}", first, last));
+  }
+  /// Compensation of the nose along the axes, round corners and tangent arcs; sizes may be too small for it.
+  void nose() {
+    if (random_.oneIn(2))
+      add(pick({"G18", "T0101", "G18T0303"}));
+    add(absolute() + "G0X" + diameter() + "Z" + along());
+    if (random_.oneIn(2)) { // a start-up block of its own
+      add(pick({"G41", "G42", "G42"}) + "G1" + (random_.oneIn(2) ? "X" + diameter() : "Z" + along()) + "F.2");
+    } else {
+      add(pick({"G41", "G42", "G42"}));
+      add(incremental() + pick({"G0", "G1"}) + by(random_.oneIn(2) ? 'X' : 'Z', pick({"", "-"}) + size()));
+    }
+    for (std::uint32_t i = 1 + random_.below(5); i > 0; --i) {
+      if (random_.oneIn(3))
+        add(incremental() + pick({"G2", "G3"}) + by('X', pick({"[", "[0-"}) + "#1*2]") +
+            by('Z', pick({"[", "[0-"}) + "#1]") + pick({"R", "R", "I", "K", "I-", "K-"}) + "#1");
+      else if (random_.oneIn(8))
+        add(random_.oneIn(2) ? "M8" : odd());
+      else
+        add(incremental() + "G1" + by(random_.oneIn(2) ? 'X' : 'Z', pick({"", "-"}) + size()));
+    }
+    if (hasDistanceModes_)
+      add("G90");
+    add(random_.oneIn(6) ? "G40" : "G40" + pick({"G0", "G1"}) + pick({"X50.", "Z5.", "X[40+#1]Z5.", "X60.Z5.T0100"}));
   }
   std::string odd() {
     return pick({"T0101",      "T0100",  "T0202M8",   "G28U0", "G28U0W0",   "G50X20.", "G50S2000", "G54",
