@@ -54,6 +54,24 @@ bool isWholeProgram(const FileContext &context, const Program &program) {
   return moves && namesTool;
 }
 
+/// A file that LinuxCNC is to run, and not one of subroutines: it needs `M2` or a closing `%`, where other controls stop
+/// at the end of the text.
+bool isFileOfInterpreter(const FileContext &context, const Program &program) {
+  const auto isSubroutine = [](const Program &each) { return each.name.isSubroutine; };
+  if (!context.dialect.grammar.oWords || std::ranges::any_of(context.model.programs, isSubroutine))
+    return false;
+  bool moves = false;
+  bool cuts = false;
+  for (BlockId block = program.first; block < program.last; block = block.next())
+    for (const Word &word : context.tree.wordsOf(block)) {
+      const Code *code = codeOf(word, context.dialect);
+      cuts = cuts || (code && (code->action == CodeAction::Linear || code->action == CodeAction::ArcClockwise ||
+                               code->action == CodeAction::ArcCounterclockwise));
+      moves = moves || axisOf(word.address());
+    }
+  return moves && cuts;
+}
+
 /// The call of a program that is not among the files: it may end the run by M30.
 const Call *unseenCallIn(const FileContext &context, BlockId block) {
   const auto calls = context.model.callsIn(block, block.next());
@@ -95,7 +113,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
       tellHead(*last, id, context, reporter);
     return;
   }
-  if (!isNamed(program) && !isWholeProgram(context, program))
+  if (!isNamed(program) && !isWholeProgram(context, program) && !isFileOfInterpreter(context, program))
     return;
   const auto last = openEnd(context, id);
   if (!last || program.isEncrypted || endsAtBrokenNumber(context, id) ||
