@@ -80,8 +80,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         !leadsBack(first, *second, context, facts.program))
       continue;
     reporter.report(
-        {.message = fmt::format("{} lets less than a step through", context.quoted(
-                                                                        context.tree.expressions[first.condition].span)),
+        {.message = fmt::format("{} lets less than a step through",
+                                context.quoted(context.tree.expressions[first.condition].span)),
          .span = context.tree.expressions[first.condition].span,
          .labels = {{context.tree.expressions[second->condition].span, "behind the step, less leads there too"}},
          .notes = {"if less is left at the first pass already, the step goes beyond the end",

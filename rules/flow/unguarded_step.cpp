@@ -41,9 +41,9 @@ bool isTestedByName(const FlowFacts &facts, std::uint32_t name) {
 std::optional<std::uint32_t> openArgument(const FlowFacts &facts, std::uint32_t name, const AbstractValue &size) {
   if (!size.mayBeVacant() && !size.number().contains(0))
     return std::nullopt;
-  const auto argument = isNamed(name)                ? parameterBehindName(facts, name)
+  const auto argument = isNamed(name)               ? parameterBehindName(facts, name)
                         : isLocal(facts.file, name) ? argumentBehind(facts, name)
-                                                     : std::nullopt;
+                                                    : std::nullopt;
   const bool isAsked = isNamed(name) ? isTestedByName(facts, name) : isTested(facts.file, facts.program, name);
   return argument && !isAsked && !isTested(facts.file, facts.program, *argument) &&
                  !mayHoldCallersValue(facts, *argument)

@@ -16,9 +16,9 @@ constexpr std::uint32_t kProtectedPositioning = 9810;
 /// Where the tool is now, on the axis of the word.
 bool isPositionNow(const FileContext &context, std::uint32_t variable, char axis) {
   const VariableRange *range = variable < kFirstNamedVariable ? findVariable(context.dialect, variable) : nullptr;
-  const bool isNow = range && (range->role == VariableRole::WorkPosition ||
-                               range->role == VariableRole::BlockEndPosition ||
-                               range->role == VariableRole::MachinePosition);
+  const bool isNow =
+      range && (range->role == VariableRole::WorkPosition || range->role == VariableRole::BlockEndPosition ||
+                range->role == VariableRole::MachinePosition);
   return isNow && variable - range->first == kAxes.find(axis);
 }
 
@@ -60,7 +60,8 @@ private:
   /// A local or common variable that is no copy of a position.
   bool isPlainTarget(std::uint32_t variable) const {
     const VariableRange *range = variable < kFirstNamedVariable ? findVariable(context_.dialect, variable) : nullptr;
-    if (!range || (range->kind != VariableKind::Local && range->kind != VariableKind::Common))
+    if (!range || (range->kind != VariableKind::Local && range->kind != VariableKind::Common &&
+                   range->kind != VariableKind::Retentive))
       return false;
     return std::ranges::none_of(context_.model.variablesOf(facts_.program), [&](const VariableUse &use) {
       return use.write && use.number == variable && readsSystem(use.block);
@@ -118,9 +119,10 @@ void tell(const Word &word, ExpressionId difference, const FileContext &context,
   Diagnostic diagnostic{
       .message = fmt::format("{} moves to a distance as if it were a position", context.quoted(word.span())),
       .span = word.span(),
-      .notes = {"the difference to where the tool is now is the way there; under `G90` a coordinate is a place, counted "
-                "from the zero point",
-                "write the position itself, or move under `G91`"}};
+      .notes = {
+          "the difference to where the tool is now is the way there; under `G90` a coordinate is a place, counted "
+          "from the zero point",
+          "write the position itself, or move under `G91`"}};
   if (!word.span().contains(span))
     diagnostic.labels = {{span, "the way from here"}};
   reporter.report(std::move(diagnostic));

@@ -43,11 +43,12 @@ public:
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, height] : ofRemarks_)
-      reporter.report({.message = fmt::format("{} is a height, and `G91` is active", context.quoted(height.word->span())),
-                       .span = height.word->span(),
-                       .labels = {{height.level->span(), "the level above which the remark counts"}},
-                       .flow = pathFromEntry(facts, node),
-                       .notes = {"the tool moves by this distance, not to this height", "write `G90` in this block"}});
+      reporter.report(
+          {.message = fmt::format("{} is a height, and `G91` is active", context.quoted(height.word->span())),
+           .span = height.word->span(),
+           .labels = {{height.level->span(), "the level above which the remark counts"}},
+           .flow = pathFromEntry(facts, node),
+           .notes = {"the tool moves by this distance, not to this height", "write `G90` in this block"}});
     for (const auto &[node, use] : incremental_) {
       const auto &[base, word] = use;
       const auto other = absolute_.find(base);

@@ -100,12 +100,12 @@ void checkUnread(const FlowFacts &facts, const FileContext &context, const Repor
             exit.end == PathEnd::Returns ? changeLeftAt(exit, saving->group, view, facts) : std::nullopt;
         if (!change || isOfLocalCall(exit, facts))
           continue;
-        reporter.report({.message = fmt::format("the mode saved in `#{}` is never restored", saving->variable),
-                         .span = saving->place,
-                         .labels = {{view.blockSpan(*change), "changed here"},
-                                    {view.blockSpan(exit.node), "returns here"}},
-                         .notes = {"the caller continues in another mode than before the call",
-                                   fmt::format("restore it with `G#{}` before the end", saving->variable)}});
+        reporter.report(
+            {.message = fmt::format("the mode saved in `#{}` is never restored", saving->variable),
+             .span = saving->place,
+             .labels = {{view.blockSpan(*change), "changed here"}, {view.blockSpan(exit.node), "returns here"}},
+             .notes = {"the caller continues in another mode than before the call",
+                       fmt::format("restore it with `G#{}` before the end", saving->variable)}});
         return;
       }
     }

@@ -32,15 +32,15 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const Span span{output->code->span().begin, output->pin->span().end};
     const std::string_view now = output->isOn ? "M64" : "M65";
-    reporter.report({.message = fmt::format("{} switches with the next motion, and {} waits before it",
-                                            context.quoted(output->code->span()), context.quoted(wait->span())),
-                     .span = output->code->span().end < span.end ? span : output->code->span(),
-                     .labels = {{wait->span(), "waits here"}},
-                     .notes = {"the output has not changed yet, so that the input for which the program waits does not "
-                               "come",
-                               fmt::format("write `{}`, which switches at once", now)},
-                     .fixes = {{.title = fmt::format("write `{}`", now),
-                                .edits = {{output->code->span(), std::string(now)}}}}});
+    reporter.report(
+        {.message = fmt::format("{} switches with the next motion, and {} waits before it",
+                                context.quoted(output->code->span()), context.quoted(wait->span())),
+         .span = output->code->span().end < span.end ? span : output->code->span(),
+         .labels = {{wait->span(), "waits here"}},
+         .notes = {"the output has not changed yet, so that the input for which the program waits does not "
+                   "come",
+                   fmt::format("write `{}`, which switches at once", now)},
+         .fixes = {{.title = fmt::format("write `{}`", now), .edits = {{output->code->span(), std::string(now)}}}}});
   }
 }
 

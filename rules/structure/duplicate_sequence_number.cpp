@@ -48,7 +48,8 @@ std::optional<SequenceNumber> labelBehind(BlockId block, ProgramId program, cons
   do
     block = block.next();
   while (block < last && isEmpty(context.tree, block));
-  const auto labels = block < last ? context.model.sequenceNumbersIn(block, block.next()) : std::span<const SequenceNumber>{};
+  const auto labels =
+      block < last ? context.model.sequenceNumbersIn(block, block.next()) : std::span<const SequenceNumber>{};
   return labels.empty() ? std::nullopt : std::optional(labels.front());
 }
 
@@ -67,14 +68,14 @@ void checkLostJump(const Repeated &repeated, ProgramId program, const FileContex
     return;
   const Span label = context.tree.words[repeated.first.word].span();
   const std::string jump = fmt::format("GOTO{}", repeated.first.number);
-  reporter.report({.message = fmt::format("{} is a label where a jump seems to be meant", context.quoted(label)),
-                   .span = label,
-                   .labels = {{context.tree.words[repeated.second.word].span(), "the label of this number"},
-                              {context.tree.words[other->word].span(), "begins what a jump above leads to"}},
-                   .notes = {"the blocks above it are followed by those of the other case",
-                             fmt::format("write `{}`", jump)},
-                   .fixes = {{.title = fmt::format("write `{}`", jump), .edits = {{label, jump}}}}},
-                  Severity::Warning);
+  reporter.report(
+      {.message = fmt::format("{} is a label where a jump seems to be meant", context.quoted(label)),
+       .span = label,
+       .labels = {{context.tree.words[repeated.second.word].span(), "the label of this number"},
+                  {context.tree.words[other->word].span(), "begins what a jump above leads to"}},
+       .notes = {"the blocks above it are followed by those of the other case", fmt::format("write `{}`", jump)},
+       .fixes = {{.title = fmt::format("write `{}`", jump), .edits = {{label, jump}}}}},
+      Severity::Warning);
 }
 
 /// One finding for the program: numbers that start anew at each tool would give thousands.

@@ -60,8 +60,8 @@ bool asksBeforeAlarm(BlockId block, const FileContext &context) {
     const auto *branch = std::get_if<If>(&statement.node);
     return statement.nested || (branch && branch->action == IfAction::Jump);
   };
-  const bool isAlone = std::ranges::all_of(context.tree.wordsOf(block),
-                                           [](const Word &word) { return word.address() == 'N'; });
+  const bool isAlone =
+      std::ranges::all_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'N'; });
   return !statements.empty() && isAlone && std::ranges::all_of(statements, isQuestion);
 }
 

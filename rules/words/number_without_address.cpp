@@ -65,13 +65,13 @@ void checkSequenceNumber(const Word &word, Span lone, const FileContext &context
     return;
   const std::string code = fmt::format("G{}", context.text(lone));
   const bool isCode = lone.size() <= 2 && hasGCode(context.dialect, tenthsOf(context.text(lone)));
-  reporter.report({.message = fmt::format("{} has no address: the letter before it is missing", context.quoted(lone)),
-                   .span = lone,
-                   .label = isCode ? fmt::format("is `{}` meant?", code) : "a number alone",
-                   .notes = {fmt::format("the control ignores the blank and reads `{}`",
-                                         withoutBlanks(context.text(word.span()))),
-                             "write the address, or take the blank out of the number"}},
-                  Severity::Warning);
+  reporter.report(
+      {.message = fmt::format("{} has no address: the letter before it is missing", context.quoted(lone)),
+       .span = lone,
+       .label = isCode ? fmt::format("is `{}` meant?", code) : "a number alone",
+       .notes = {fmt::format("the control ignores the blank and reads `{}`", withoutBlanks(context.text(word.span()))),
+                 "write the address, or take the blank out of the number"}},
+      Severity::Warning);
 }
 
 /// `Y42. 013`: a word does not begin with 0, so that it is the fraction.
@@ -81,12 +81,12 @@ bool isFraction(const Word &word, Span lone, const FileContext &context) {
 }
 
 void tellFraction(const Word &word, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} has a blank inside its number", context.quoted(word.span())),
-                   .span = word.span(),
-                   .notes = {fmt::format("the control ignores the blank and reads `{}`",
-                                         withoutBlanks(context.text(word.span()))),
-                             "take the blank out, or write the address of the second number"}},
-                  Severity::Info);
+  reporter.report(
+      {.message = fmt::format("{} has a blank inside its number", context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {fmt::format("the control ignores the blank and reads `{}`", withoutBlanks(context.text(word.span()))),
+                 "take the blank out, or write the address of the second number"}},
+      Severity::Info);
 }
 
 void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {

@@ -180,8 +180,8 @@ void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordF
     tree_.words.add(Word(address, WordForm::Broken, span, wordFlags));
 }
 
-/// An operator and an operand behind the value of a word: `X#1+2`.  In `T01 MO6` the letter O stands for the digit: it is
-/// MOD for the control, which stops either way, and M06 for whoever wrote it.
+/// An operator and an operand behind the value of a word: `X#1+2`.  In `T01 MO6` the letter O stands for the digit: it
+/// is MOD for the control, which stops either way, and M06 for whoever wrote it.
 bool Parser::wordGoesOn() const {
   if (!peekOperator() || !slashCanDivide() || !startsOperand(peek()))
     return false;
