@@ -94,9 +94,13 @@ void checkOpposites(const FlowFacts &facts, const FileContext &context, NodeId n
                   raisesAlarmAt(facts.file, dead) ? Severity::Info : Severity::Warning);
 }
 
+/// The test of a WHILE, and not that of an IF behind it in the block.
 bool isWhile(const FlowFacts &facts, NodeId node) {
-  return std::ranges::any_of(facts.file.tree->statementsOf(facts.node(node).block),
-                             [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+  const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+  return test && std::ranges::any_of(facts.file.tree->statementsOf(facts.node(node).block), [&](const Statement &s) {
+           const auto *loop = std::get_if<While>(&s.node);
+           return loop && loop->condition == test->condition;
+         });
 }
 
 /// The node may change what an expression of plain variables comes to.

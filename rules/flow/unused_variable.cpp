@@ -1,28 +1,12 @@
 // unused-variable: a main program sets `#5` and nothing reads it; `#5=0.(OFFSET)` at its head is a setting of a
 // template.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/seen_locals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::unused_variable {
 namespace {
-
-/// Nothing but the text of the program reads its local variables.
-bool isTransparent(const FlowFacts &facts) {
-  const ProgramFile &file = facts.file;
-  for (const Call &call : file.model->callsOf(facts.program))
-    if (call.kind != CallKind::Macro && call.kind != CallKind::Modal && call.kind != CallKind::ModalCancel &&
-        call.kind != CallKind::Local)
-      return false;
-  for (const BlockId block : blocksOf(file, facts.program))
-    if (file.tree->blocks[block].has(Block::kBroken))
-      return false;
-  return std::ranges::all_of(file.model->variablesOf(facts.program), [&](const VariableUse &use) {
-    return use.write || use.number || !as<IndirectVariable>(*file.tree, use.expression) ||
-           readsOf(file, use.block).size() > 1;
-  });
-}
 
 /// `#5=0.(OFFSET)`: a block of nothing but one assignment and its remark.
 const Comment *remarkOfSetting(const ProgramFile &file, BlockId block) {
@@ -110,12 +94,12 @@ void reportSetting(const Setting &setting, const FileContext &context, const Rep
 }
 
 /// Where no other setting is read, the head belongs to something else.
-std::vector<Setting> unreadSettings(const FlowFacts &facts, const FileContext &context, bool seesLocals) {
+std::vector<Setting> unreadSettings(const FlowFacts &facts, const FileContext &context, bool areSeen) {
   const std::vector<Setting> all = settingsOf(facts);
   std::vector<Setting> unread;
   for (const Setting &setting : all)
     if (!isReadIn(facts, setting.variable) &&
-        (isLocal(facts.file, setting.variable) ? seesLocals : isUnreadCommon(facts, context, setting.variable)))
+        (isLocal(facts.file, setting.variable) ? areSeen : isUnreadCommon(facts, context, setting.variable)))
       unread.push_back(setting);
   const bool othersAreRead =
       std::ranges::any_of(all, [&](const Setting &setting) { return isReadIn(facts, setting.variable); });
@@ -125,13 +109,13 @@ std::vector<Setting> unreadSettings(const FlowFacts &facts, const FileContext &c
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (!isMainProgram(facts))
     return;
-  const bool seesLocals = isTransparent(facts);
+  const bool areSeen = seesLocals(facts);
   std::vector<std::uint32_t> done;
-  for (const Setting &setting : unreadSettings(facts, context, seesLocals)) {
+  for (const Setting &setting : unreadSettings(facts, context, areSeen)) {
     reportSetting(setting, context, reporter);
     done.push_back(setting.variable);
   }
-  if (!seesLocals)
+  if (!areSeen)
     return;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {
     if (!use.write || !use.number || !isLocal(facts.file, *use.number) ||

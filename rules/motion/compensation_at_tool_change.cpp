@@ -11,14 +11,10 @@ namespace {
 class CompensationAtToolChange final : public FlowRule {
 public:
   CompensationAtToolChange(ProgramId program, const FileContext &context)
-      : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling) {}
+      : view_(program, context), turns_(context.dialect.machine == MachineKind::Turning) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!isAsked_ || !view_.mayHave(node, 'M') || !view_.findAction(node, {CodeAction::ToolChange}))
-      return;
-    // LinuxCNC changes a number with M61, and no tool.
-    if (view_.context().dialect.behaviour.stopsAtStrayWords &&
-        view_.findAction(node, {CodeAction::ToolChange})->tenths() != 60)
+    if (!changeAt(node))
       return;
     const bool isOn = !isHavocked(state) && view_.surely(state, ModalKind::Compensation,
                                                          {CodeAction::CompensationLeft, CodeAction::CompensationRight});
@@ -31,13 +27,14 @@ public:
       if (!isOn)
         continue;
       const bool stops = context.dialect.behaviour.stopsAtStrayWords;
-      const Word *change = view_.findAction(node, {CodeAction::ToolChange});
-      Diagnostic diagnostic{.message = fmt::format("{} changes the tool while cutter compensation is active",
-                                                   context.quoted(change->span())),
+      const Word *change = changeAt(node);
+      Diagnostic diagnostic{.message = fmt::format("{} changes the tool while {} compensation is active",
+                                                   context.quoted(change->span()), turns_ ? "nose radius" : "cutter"),
                             .span = change->span(),
                             .flow = pathFromEntry(facts, node),
-                            .notes = {stops ? "the control stops with an error"
-                                            : "the control stops, or moves the next tool by the radius of this one",
+                            .notes = {stops    ? "the control stops with an error"
+                                      : turns_ ? "the next tool is compensated, too, on the side that this one needed"
+                                               : "the control stops, or moves the next tool by the radius of this one",
                                       "cancel it with G40 in a move away from the part"}};
       if (const Word *start = startBefore(node))
         diagnostic.labels = {{start->span(), "started here"}};
@@ -47,6 +44,21 @@ public:
   }
 
 private:
+  /// M06, or on a lathe `T0303`.  LinuxCNC changes a number with M61, and no tool.
+  const Word *changeAt(NodeId node) const {
+    if (turns_)
+      return view_.mayHave(node, 'T') ? turretWord(node) : nullptr;
+    const Word *change = view_.mayHave(node, 'M') ? view_.findAction(node, {CodeAction::ToolChange}) : nullptr;
+    const bool isOther = view_.context().dialect.behaviour.stopsAtStrayWords && change && change->tenths() != 60;
+    return isOther ? nullptr : change;
+  }
+  const Word *turretWord(NodeId node) const {
+    constexpr std::uint32_t kOffsets = 100; // T0300 ends the offset of tool 3
+    for (const Word *word : view_.wordsOf(node))
+      if (word->address() == 'T' && word->integer().value_or(0) > kOffsets && *word->integer() % kOffsets != 0)
+        return word;
+    return nullptr;
+  }
   /// The last one in the text before the change.
   const Word *startBefore(NodeId change) const {
     for (NodeId node = change; node.index() > 0;) {
@@ -58,7 +70,7 @@ private:
   }
 
   MotionView view_;
-  bool isAsked_;
+  bool turns_;
   std::map<NodeId, bool> seen_; // on all paths
 };
 

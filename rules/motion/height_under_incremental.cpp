@@ -2,10 +2,17 @@
 #include "rules/expressions/expression_view.h"
 #include "rules/motion/motion_view.h"
 
+#include "base/support/text.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace feedhold::rules::height_under_incremental {
 namespace {
@@ -15,7 +22,11 @@ public:
   HeightUnderIncremental(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!view_.mayHave(node, 'Z') || isHavocked(state))
+    if (!view_.mayHave(node, 'Z'))
+      return;
+    if (view_.surely(state, ModalKind::Distance, {CodeAction::Incremental}))
+      noteHeightOfRemark(node);
+    if (isHavocked(state))
       return;
     for (const Word *word : view_.modalMotionWords(node)) {
       const auto base =
@@ -31,6 +42,13 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, height] : ofRemarks_)
+      reporter.report(
+          {.message = fmt::format("{} is a height, and `G91` is active", context.quoted(height.word->span())),
+           .span = height.word->span(),
+           .labels = {{height.level->span(), "the level above which the remark counts"}},
+           .flow = pathFromEntry(facts, node),
+           .notes = {"the tool moves by this distance, not to this height", "write `G90` in this block"}});
     for (const auto &[node, use] : incremental_) {
       const auto &[base, word] = use;
       const auto other = absolute_.find(base);
@@ -45,6 +63,54 @@ public:
   }
 
 private:
+  struct HeightOfRemark {
+    const Word *word;
+    const Word *level;
+  };
+
+  /// `G10 L20 P1 Z25`, and in the next block `G00 Z35 (10mm above the part)`: the sum, where the distance is meant to
+  /// stand.
+  void noteHeightOfRemark(NodeId node) {
+    const FileContext &context = view_.context();
+    const BlockId block = view_.node(node).block;
+    const Word *level = levelSetBefore(block);
+    if (!level)
+      return;
+    for (const Word *word : view_.modalMotionWords(node)) {
+      if (word->address() != 'Z' || !word->isNumber())
+        continue;
+      for (const Comment &remark : context.tree.commentsOf(block))
+        if (namesRise(toUpper(context.text(remark.span)), word->number().toDouble() - level->number().toDouble()))
+          ofRemarks_.emplace(node, HeightOfRemark{word, level});
+    }
+  }
+  /// The Z of a G10 or G92 in the block above.
+  const Word *levelSetBefore(BlockId block) const {
+    const FileContext &context = view_.context();
+    do {
+      if (block == context.model.programs[view_.program()].first)
+        return nullptr;
+      block = BlockId(block.index() - 1);
+    } while (isEmpty(context.tree, block));
+    const bool sets = findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
+                      findCode(context.tree, block, context.dialect, CodeRole::CoordinateShift);
+    const Word *level = sets ? findWord(context.tree, block, 'Z') : nullptr;
+    return level && level->isNumber() && !level->number().isZero() ? level : nullptr;
+  }
+  /// `10MM ABOVE`
+  static bool namesRise(std::string_view remark, double rise) {
+    if (rise <= 0 || remark.find("ABOVE") == std::string_view::npos)
+      return false;
+    const auto isOfNumber = [](char c) { return isDigit(c) || c == '.'; };
+    for (auto at = std::ranges::find_if(remark, isOfNumber); at != remark.end();) {
+      const auto end = std::find_if_not(at, remark.end(), isOfNumber);
+      if (std::abs(std::strtod(std::string(at, end).c_str(), nullptr) - rise) < 1e-6)
+        return true;
+      at = std::find_if(end, remark.end(), isOfNumber);
+    }
+    return false;
+  }
+
   /// Of `[#26+50.]`: #26.
   std::optional<std::uint32_t> heightOver(const Word &word) const {
     const SyntaxTree &tree = view_.context().tree;
@@ -64,6 +130,7 @@ private:
   MotionView view_;
   std::map<std::uint32_t, const Word *> absolute_; // by variable
   std::map<NodeId, std::pair<std::uint32_t, const Word *>> incremental_;
+  std::map<NodeId, HeightOfRemark> ofRemarks_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

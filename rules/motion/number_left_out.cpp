@@ -14,7 +14,7 @@ public:
       : actions_(code.actions), letter_(code.letter), offset_(code.offset), view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!findCode(node))
+    if (!findCode(node) || isWritten(node))
       return;
     const bool never = !isHavocked(state) && isAsAtEntry(state, letter_);
     const auto [at, isNew] = places_.emplace(node, never);
@@ -36,6 +36,11 @@ public:
   }
 
 private:
+  /// `G43 HO1`: what is wrong with its number, another rule says.
+  bool isWritten(NodeId node) const {
+    const Word *word = findWord(view_.context().tree, view_.node(node).block, letter_);
+    return word && word->form() == WordForm::Missing;
+  }
   const Word *findCode(NodeId node) const {
     for (const CodeAction action : actions_)
       if (const Word *word = view_.findAction(node, {action}))

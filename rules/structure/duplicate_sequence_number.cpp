@@ -38,6 +38,46 @@ std::vector<Repeated> repeatedNumbers(ProgramId program, const FileContext &cont
   return found;
 }
 
+bool isBare(BlockId block, const FileContext &context) {
+  return context.tree.wordsOf(block).size() == 1 && context.tree.statementsOf(block).empty();
+}
+
+/// Down to the next label, which is a target: absent if something stands between.
+std::optional<SequenceNumber> labelBehind(BlockId block, ProgramId program, const FileContext &context) {
+  const BlockId last = context.model.programs[program].last;
+  do
+    block = block.next();
+  while (block < last && isEmpty(context.tree, block));
+  const auto labels =
+      block < last ? context.model.sequenceNumbersIn(block, block.next()) : std::span<const SequenceNumber>{};
+  return labels.empty() ? std::nullopt : std::optional(labels.front());
+}
+
+bool isJumpedTo(std::uint32_t number, BlockId before, ProgramId program, const FileContext &context) {
+  return std::ranges::any_of(context.model.jumpsOf(program), [&](const Jump &jump) {
+    return jump.kind == JumpKind::Goto && jump.conditional && jump.block < before && targetNumber(jump) == number;
+  });
+}
+
+/// `IF[..]GOTO2`, one way, `N3` alone, `N2`, the other way, `N3`: the first N3 is a jump without its `GOTO`.
+void checkLostJump(const Repeated &repeated, ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const BlockId block = repeated.first.block;
+  const auto other = isBare(block, context) ? labelBehind(block, program, context) : std::nullopt;
+  if (!other || other->block >= repeated.second.block || other->number == repeated.first.number ||
+      !isJumpedTo(other->number, block, program, context))
+    return;
+  const Span label = context.tree.words[repeated.first.word].span();
+  const std::string jump = fmt::format("GOTO{}", repeated.first.number);
+  reporter.report(
+      {.message = fmt::format("{} is a label where a jump seems to be meant", context.quoted(label)),
+       .span = label,
+       .labels = {{context.tree.words[repeated.second.word].span(), "the label of this number"},
+                  {context.tree.words[other->word].span(), "begins what a jump above leads to"}},
+       .notes = {"the blocks above it are followed by those of the other case", fmt::format("write `{}`", jump)},
+       .fixes = {{.title = fmt::format("write `{}`", jump), .edits = {{label, jump}}}}},
+      Severity::Warning);
+}
+
 /// One finding for the program: numbers that start anew at each tool would give thousands.
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.grammar.sequenceJumps)
@@ -54,6 +94,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
                    .span = context.tree.words[first.second.word].span(),
                    .labels = {{context.tree.words[first.first.word].span(), "first used here"}},
                    .notes = {"no jump uses it, but a sequence number search at the machine may find the wrong block"}});
+  for (const Repeated &each : repeated)
+    checkLostJump(each, program, context, reporter);
 }
 
 } // namespace

@@ -54,6 +54,25 @@ bool isWholeProgram(const FileContext &context, const Program &program) {
   return moves && namesTool;
 }
 
+/// A file that LinuxCNC is to run, and neither one of subroutines nor a piece of one: it needs `M2` or a closing `%`,
+/// where other controls stop at the end of the text.
+bool isFileOfInterpreter(const FileContext &context, const Program &program) {
+  constexpr int kWork = 8; // blocks with movements
+  if (!context.dialect.grammar.oWords || context.model.programs.size() != 1)
+    return false;
+  int moves = 0;
+  bool cuts = false;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    if (context.tree.blocks[block].has(Block::kBroken))
+      return false;
+    const auto words = context.tree.wordsOf(block);
+    cuts = cuts || findAction(context.tree, block, context.dialect,
+                              {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+    moves += std::ranges::any_of(words, [](const Word &word) { return axisOf(word.address()).has_value(); }) ? 1 : 0;
+  }
+  return cuts && moves >= kWork;
+}
+
 /// The call of a program that is not among the files: it may end the run by M30.
 const Call *unseenCallIn(const FileContext &context, BlockId block) {
   const auto calls = context.model.callsIn(block, block.next());
@@ -95,7 +114,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
       tellHead(*last, id, context, reporter);
     return;
   }
-  if (!isNamed(program) && !isWholeProgram(context, program))
+  if (!isNamed(program) && !isWholeProgram(context, program) && !isFileOfInterpreter(context, program))
     return;
   const auto last = openEnd(context, id);
   if (!last || program.isEncrypted || endsAtBrokenNumber(context, id) ||
@@ -105,14 +124,16 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const bool mayEnd = unseenCallIn(context, *last) != nullptr;
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
   const std::string name = isNamed(program) ? fmt::format("`{}`", toString(program.name)) : "the program";
-  reporter.report({.message = fmt::format("{} can run past its last block", name),
-                   .span = context.tree.blocks[*last].span(),
-                   .label = maySkip  ? "with block skip on, the program does not end here"
-                            : mayEnd ? "unless this program, which is not in the files, ends the run"
-                                     : "",
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
-                             "end a main program with M30, a subprogram or macro with M99"}},
-                  isSnippet(context, id) || mayEnd ? Severity::Info : Severity::Warning);
+  reporter.report(
+      {.message = fmt::format("{} can run past its last block", name),
+       .span = context.tree.blocks[*last].span(),
+       .label = maySkip  ? "with block skip on, the program does not end here"
+                : mayEnd ? "unless this program, which is not in the files, ends the run"
+                         : "",
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
+                 context.dialect.grammar.oWords ? "end the file with M2, or write `%` before and behind it"
+                                                : "end a main program with M30, a subprogram or macro with M99"}},
+      isSnippet(context, id) || mayEnd ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

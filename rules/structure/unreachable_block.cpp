@@ -53,6 +53,18 @@ bool preparesAlarm(BlockId block, const FileContext &context) {
          });
 }
 
+/// `IF[#1005EQ0]GOTO99`: asks before the alarm is told.
+bool asksBeforeAlarm(BlockId block, const FileContext &context) {
+  const auto statements = context.tree.statementsOf(block);
+  const auto isQuestion = [](const Statement &statement) {
+    const auto *branch = std::get_if<If>(&statement.node);
+    return statement.nested || (branch && branch->action == IfAction::Jump);
+  };
+  const bool isAlone =
+      std::ranges::all_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'N'; });
+  return !statements.empty() && isAlone && std::ranges::all_of(statements, isQuestion);
+}
+
 /// `N801`, `M09`, `#3000=1(LOW BATTERY)`; `N910 M01(NO MATERIAL)`.
 std::optional<DeadMessage> messageOf(const DeadBlocks::Run &run, BlockId start, const FileContext &context) {
   bool hasLabel = false;
@@ -67,7 +79,7 @@ std::optional<DeadMessage> messageOf(const DeadBlocks::Run &run, BlockId start, 
     const auto comments = context.tree.commentsOf(block);
     if (findCode(context.tree, block, context.dialect, CodeRole::ProgramStop) && !comments.empty())
       return DeadMessage{block, false};
-    if (!preparesAlarm(block, context))
+    if (!preparesAlarm(block, context) && !asksBeforeAlarm(block, context))
       return std::nullopt;
   }
   return std::nullopt;

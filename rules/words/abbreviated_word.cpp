@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "language/lex/lexer.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,9 @@ std::string_view longForm(const FileContext &context, Span span) {
 
 void check(const FileContext &context, const Reporter &reporter) {
   for (const Span span : context.tree.abbreviations) {
+    // `GO1 X5.` with the letter for the digit: macro-statement-with-words speaks of it.
+    if (isMotionCodeWithLetter(context, context.tree.blockAt(span.begin), {span.begin, span.end + 1}))
+      continue;
     const std::string_view meant = longForm(context, span);
     reporter.report({.message = fmt::format("{} is short for `{}`", context.quoted(span), meant),
                      .span = span,

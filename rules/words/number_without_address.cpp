@@ -1,7 +1,11 @@
 // number-without-address: `G43 25.0 H01`, where Z is missing.
 #include "rules/words/lone_number.h"
 
+#include "base/support/text.h"
+
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace feedhold::rules {
 
@@ -32,13 +36,65 @@ std::string withoutBlanks(std::string_view text) {
   return joined;
 }
 
+std::uint16_t tenthsOf(std::string_view digits) {
+  std::uint16_t value = 0;
+  for (const char c : digits)
+    value = static_cast<std::uint16_t>(value * 10 + (c - '0'));
+  return static_cast<std::uint16_t>(value * 10);
+}
+
 bool isNoCode(const Word &word, const Dialect &dialect) {
   const auto tenths = word.tenths();
   return word.address() == 'G' && word.isCode() && !(tenths && hasGCode(dialect, *tenths));
 }
 
+/// `N 1 20` between N110 and N130 is a number of its row that is written with a blank.
+bool fitsIntoRow(const Word &word, const FileContext &context) {
+  const std::span<const SequenceNumber> row = context.model.sequenceNumbers;
+  const auto own = std::ranges::find(row, context.tree.idOf(word), &SequenceNumber::word);
+  if (own == row.end())
+    return true; // it numbers no block
+  const bool isAbove = own == row.begin() || (own - 1)->number < own->number;
+  const bool isBelow = own + 1 == row.end() || own->number < (own + 1)->number;
+  return isAbove && isBelow && row.size() > 1;
+}
+
+/// `N10 21 G40`, where the row goes on with N20.
+void checkSequenceNumber(const Word &word, Span lone, const FileContext &context, const Reporter &reporter) {
+  if (fitsIntoRow(word, context))
+    return;
+  const std::string code = fmt::format("G{}", context.text(lone));
+  const bool isCode = lone.size() <= 2 && hasGCode(context.dialect, tenthsOf(context.text(lone)));
+  reporter.report(
+      {.message = fmt::format("{} has no address: the letter before it is missing", context.quoted(lone)),
+       .span = lone,
+       .label = isCode ? fmt::format("is `{}` meant?", code) : "a number alone",
+       .notes = {fmt::format("the control ignores the blank and reads `{}`", withoutBlanks(context.text(word.span()))),
+                 "write the address, or take the blank out of the number"}},
+      Severity::Warning);
+}
+
+/// `Y42. 013`: a word does not begin with 0, so that it is the fraction.
+bool isFraction(const Word &word, Span lone, const FileContext &context) {
+  const std::string_view before = trimmed(context.text({word.span().begin, lone.begin}));
+  return before.ends_with('.') && lone.size() > 1 && context.text(lone).starts_with('0');
+}
+
+void tellFraction(const Word &word, const FileContext &context, const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("{} has a blank inside its number", context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {fmt::format("the control ignores the blank and reads `{}`", withoutBlanks(context.text(word.span()))),
+                 "take the blank out, or write the address of the second number"}},
+      Severity::Info);
+}
+
 void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto lone = loneNumberIn(word, context);
+  if (lone && word.address() == 'N')
+    return checkSequenceNumber(word, *lone, context, reporter);
+  if (lone && isFraction(word, *lone, context))
+    return tellFraction(word, context, reporter);
   if (!lone)
     return;
   const bool stops = isNoCode(word, context.dialect);
@@ -60,7 +116,7 @@ const Rule numberWithoutAddress{
     .info = {"number-without-address", Category::Word, Severity::Error,
              "Reports a number behind a blank whose address is missing, so that the control takes it as further digits "
              "of the word before it."},
-    .hooks = {.word = check, .wordAddresses = "ABCDEFGHIJKLMPQRSTUVWXYZ"}};
+    .hooks = {.word = check, .wordAddresses = "ABCDEFGHIJKLMNPQRSTUVWXYZ"}};
 
 } // namespace number_without_address
 } // namespace feedhold::rules

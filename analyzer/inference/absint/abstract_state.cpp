@@ -1,5 +1,7 @@
 #include "inference/absint/abstract_state.h"
 
+#include "language/model/unread_blocks.h"
+
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -213,8 +215,27 @@ void AbstractInterpretation::unlistedCode(State &state, const CodeName &, Span p
   havoc(state, kUnlistedCode, place);
 }
 
+namespace {
+
+/// The axes have moved, or a skip signal has stopped them; without a modal call nothing else happens.
+void forgetMovement(AbstractInterpretation &interpretation, AbstractState &state, const Dialect &dialect) {
+  for (AbstractValue &coordinate : state.position)
+    coordinate = interpretation.either(coordinate, AbstractValue::anyNumber());
+  for (AbstractValue &pending : state.transform.pending)
+    if (pending.mayBeNumber())
+      pending = interpretation.select(interpretation.isVacant(pending), pending,
+                                      interpretation.either(pending, AbstractValue::anyNumber()));
+  for (const VariableRange &range : dialect.variables)
+    if (range.role == VariableRole::SkipPosition)
+      interpretation.havocVariables(state, range.first, range.last);
+}
+
+} // namespace
+
 void AbstractInterpretation::havoc(State &state, std::string_view reason, Span place) {
   unmodelled(reason, place);
+  if (reason == kUnreadMovement && state.modalCalls.empty() && !mayBeTrue(state.modalCallsUnknown))
+    return forgetMovement(*this, state, *dialect_);
   havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});
 }
 

@@ -166,7 +166,7 @@ void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordF
   if (lexer_.lastNumber().points > 0)
     wordFlags |= Word::kPoint;
   advance();
-  if (peekOperator() && slashCanDivide() && startsOperand(peek())) {
+  if (wordGoesOn()) {
     const ExpressionId literal =
         tree_.expressions.add(Expression{digits.span(), NumberLiteral{value.value_or(Decimal())}});
     const ExpressionId left = negative ? addExpression(begin + 1, Negation{literal}) : literal;
@@ -180,10 +180,19 @@ void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordF
     tree_.words.add(Word(address, WordForm::Broken, span, wordFlags));
 }
 
+/// An operator and an operand behind the value of a word: `X#1+2`.  In `T01 MO6` the letter O stands for the digit: it
+/// is MOD for the control, which stops either way, and M06 for whoever wrote it.
+bool Parser::wordGoesOn() const {
+  if (!peekOperator() || !slashCanDivide() || !startsOperand(peek()))
+    return false;
+  const bool isModulo = at(TokenKind::Operator) && token_.op() == OperatorKind::Modulo && token_.abbreviated;
+  return !isModulo || peek().kind != TokenKind::Number || peek().begin != token_.end;
+}
+
 /// The rest of `X#1+2`: an expression after an address that no bracket holds together.
 void Parser::readUnbracketedRest(char address, std::uint32_t begin, std::uint8_t wordFlags, ExpressionId left) {
   ExpressionId value = left;
-  if (peekOperator() && slashCanDivide() && startsOperand(peek())) {
+  if (wordGoesOn()) {
     const std::uint32_t from = token_.begin;
     value = binaryRest(left, 1);
     issue(SyntaxIssueKind::UnbracketedExpression, since(from), {begin, lastEnd_}, Broken::No);

@@ -53,6 +53,7 @@ private:
   void readWord();
   void readWordValue(char address, std::uint32_t begin, std::uint8_t wordFlags);
   void addNumberWord(char address, std::uint32_t begin, std::uint8_t wordFlags, bool negative);
+  bool wordGoesOn() const;
   void readUnbracketedRest(char address, std::uint32_t begin, std::uint8_t wordFlags, ExpressionId left);
   void readCommaWord();
   void readBlockSkip();

@@ -4,6 +4,7 @@
 #include "base/support/text.h"
 #include "language/model/block_facts.h"
 #include "language/model/contours.h"
+#include "language/model/unread_blocks.h"
 
 #include <algorithm>
 
@@ -111,10 +112,12 @@ void Lowering::wholeBlock(BlockId id) {
 /// be read may or may not take place.
 void Lowering::brokenBlock(const BlockWords &words) {
   constexpr std::string_view kReason = "a block that could not be read";
-  if (mayNameWord(source_, tree_, block_))
-    emit(Havoc{kReason});
-  else
+  if (!mayNameWord(source_, tree_, block_))
     emit(HavocVariables{kReason});
+  else if (namesAxesAlone(source_, tree_, dialect_, block_))
+    emit(Havoc{kUnreadMovement});
+  else
+    emit(Havoc{kReason});
   flowStatements();
   if (!words.ending())
     return;
