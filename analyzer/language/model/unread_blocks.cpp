@@ -22,13 +22,13 @@ std::string textWithoutRemarks(const SourceFile &source, const SyntaxTree &tree,
   return text += source.text({from, std::max(from, tree.blocks[id].end)});
 }
 
-/// Of the digits at the head of a block whose letter is missing.
+/// Of the digits at the head of a block whose letter is missing.  On a lathe: elsewhere it may end the tool length.
 bool isReferenceReturn(std::string_view digits, const Dialect &dialect) {
   std::uint16_t tenths = 0;
   for (const char c : digits)
     tenths = static_cast<std::uint16_t>(tenths * 10 + (c - '0'));
   const Code *code = digits.size() <= 2 ? findGCode(dialect, static_cast<std::uint16_t>(tenths * 10)) : nullptr;
-  return code && code->role == CodeRole::ReferenceReturn;
+  return dialect.machine == MachineKind::Turning && code && code->role == CodeRole::ReferenceReturn;
 }
 
 } // namespace
