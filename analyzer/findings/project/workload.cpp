@@ -327,7 +327,12 @@ void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const
     const std::vector<std::filesystem::path> folders = named.above(candidate.found.path);
     const auto clear = std::find_if(folders.begin(), folders.end(),
                                     [&](const std::filesystem::path &folder) { return votes.at(folder).isClear(); });
-    candidate.guess = votes.at(clear == folders.end() ? folders.front() : *clear).decide(candidate.guess);
+    const bool isOfOwn = clear == folders.end() || clear == folders.begin();
+    const FolderVote &asked = votes.at(isOfOwn ? folders.front() : *clear);
+    LanguageGuess decided = asked.decide(candidate.guess);
+    // The machine of a few programs in another folder is not that of this one.
+    if (isOfOwn || decided.dialect == nullptr || asked.speaksFor(decided.dialect))
+      candidate.guess = std::move(decided);
   }
 }
 

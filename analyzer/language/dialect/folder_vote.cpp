@@ -46,13 +46,17 @@ void FolderVote::add(const LanguageGuess &file) {
     sums_[i] += voteOf(file, i);
 }
 
-bool FolderVote::isClear() const {
-  std::size_t all = 0, most = 0;
-  for (const auto &[dialect, files] : speakers_) {
+bool FolderVote::speaksFor(const Dialect *dialect) const {
+  std::size_t all = 0;
+  for (const auto &[other, files] : speakers_)
     all += files;
-    most = std::max(most, files);
-  }
-  return (all >= kFewestSpeakers && most * 3 >= all * 2) || commonForeign() != nullptr;
+  const auto own = speakers_.find(dialect);
+  return all >= kFewestSpeakers && own != speakers_.end() && own->second * 3 >= all * 2;
+}
+
+bool FolderVote::isClear() const {
+  return commonForeign() != nullptr ||
+         std::any_of(speakers_.begin(), speakers_.end(), [&](const auto &each) { return speaksFor(each.first); });
 }
 
 /// The language of more than half of the programs.  Where it looks like Macro B, programs that fit several controls do

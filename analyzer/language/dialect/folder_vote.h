@@ -18,6 +18,8 @@ public:
   void add(const LanguageGuess &file);
   /// Enough of the programs speak for one dialect; else a larger folder is to be asked.
   bool isClear() const;
+  /// Most of those that speak for any do so for this one.
+  bool speaksFor(const Dialect *dialect) const;
   /// The guess for a file of the folder, which may have voted itself.  What its own text says clearly counts more than
   /// what the others say.
   LanguageGuess decide(const LanguageGuess &own) const;

@@ -191,6 +191,10 @@ std::optional<CutterOffset<double>> RunCutter::offsetOf(Context &context, const 
 /// What no variable gives of it is that of the contract's tool.
 std::optional<CutterOffset<double>> RunCutter::noseOf(Context &context, double number) const {
   const NoseMemory &offsets = context.behaviour().noseOffsets;
+  const bool isWritten = std::ranges::any_of(context.state.variables.entries(),
+                                             [](const auto &each) { return mayBeTipOffset(each.first, each.first); });
+  if (offsets.radius.count == 0 && isWritten) // which of them is the radius, is not known
+    return std::nullopt;
   const bool hasVariables = number >= 1 && number <= offsets.radius.count && number == std::floor(number);
   const auto given = [&](const std::array<std::uint32_t, 2> &firsts) {
     return hasVariables ? firstGiven(context, firsts, static_cast<std::uint32_t>(number)) : std::nullopt;

@@ -65,7 +65,8 @@ private:
     first_ = *words.length('I');
     step_ = words.length('Q');
     last_ = words.length('K').value_or(first_);
-    return true;
+    // What a step of 0 does, the manual does not say.
+    return !step_ || context_.proved(interpretation_.compare(Relation::Less, context_.zero(), *step_));
   }
   /// A canned cycle may be active: what the block then does, the manual does not say.
   bool mayDrill() {

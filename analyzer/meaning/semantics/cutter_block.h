@@ -218,8 +218,6 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
   if (const Code *pocket = findPocket(words)) {
     block.pocket = pocket->meaning;
     detail::readSide(host, context, words, *pocket, block);
-    if (block.isInCompensation)
-      block.whyNoRadius = "a circular pocket under cutter compensation";
   } else if (code != nullptr && detail::setsSide(*code)) {
     if (isLathe)
       detail::readNose(host, context, *code, block);

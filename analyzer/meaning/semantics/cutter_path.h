@@ -98,6 +98,7 @@ private:
     Place place;
     std::size_t depth;
     std::size_t idle = 0;                 // blocks behind it that do not move in the plane
+    bool mayBeLast = false;               // to the control, which perhaps reads no further
     std::vector<std::size_t> behind = {}; // their moves
   };
   struct At {
@@ -128,6 +129,7 @@ private:
   Element ofContour(Host &host, std::size_t index) const;
   std::string_view whyNotJoined(Host &host, std::size_t index, const Join &join) const;
   void finishPending(Host &host, const Join &join);
+  Vector endWithoutNext(Host &host) const { return side_.radius * ofContour(host, pending_->move).endNormal; }
   void failReading(Host &host);
   Truth isReversed(Host &host, const Pending &pending, Vector to) const;
   MoveOf shifted(Host &host, MoveOf move, Vector start, Vector end) const;
@@ -158,7 +160,7 @@ template <typename Host>
 void CutterPath<Host>::take(Host &host, const Block &block, CutterPlace where, std::size_t first, std::size_t end) {
   if (alarm_)
     return;
-  if (phase_ == Phase::Off && !block.pocket.empty())
+  if (!block.pocket.empty())
     return takePocket(host, block, {where.place, where.depth, first}, end);
   if (phase_ == Phase::Off && !block.side)
     return;
@@ -338,6 +340,9 @@ std::string_view CutterPath<Host>::whyNotJoined(Host &host, std::size_t index, c
     return "cutter compensation along a block and back";
   if (join.isArc && host.moveOf(pending_->move).kind == MoveKind::Rapid)
     return "cutter compensation about an outer corner in rapid traverse";
+  if (pending_->mayBeLast &&
+      (join.vectors.size() != 1 || host.holds(host.apart(join.vectors.front(), endWithoutNext(host), kSame))))
+    return "cutter compensation at a corner that the control may not have foreseen";
   return {};
 }
 
@@ -411,8 +416,12 @@ template <typename Host> void CutterPath<Host>::idle(Host &host, const Block &bl
     return;
   ++pending_->idle;
   const std::size_t most = dialect_->behaviour.cutterBlocks;
-  if (most != 0 && (block.stopsReading || block.namesPlane || pending_->idle > most - 2))
+  if (most == 0 || !(block.stopsReading || block.namesPlane || pending_->idle > most - 2))
+    return;
+  if (block.stopsReading || host.knowsReadAhead(*dialect_))
     failReading(host);
+  else
+    pending_->mayBeLast = true;
 }
 
 // ---- from one block to the next ----
@@ -464,7 +473,7 @@ template <typename Host> auto CutterPath<Host>::ofContour(Host &host, std::size_
 
 /// The control does not know the next block in the plane: it ends square to its own.
 template <typename Host> void CutterPath<Host>::failReading(Host &host) {
-  finishPending(host, {.vectors = {side_.radius * ofContour(host, pending_->move).endNormal}});
+  finishPending(host, {.vectors = {endWithoutNext(host)}});
 }
 
 template <typename Host> void CutterPath<Host>::finishPending(Host &host, const Join &join) {

@@ -17,13 +17,18 @@ void CutterPath<Host>::takePocket(Host &host, const Block &block, const At &at, 
     why = open;
   if (why.empty() && block.side && block.side->sign > 0)
     why = "a circular pocket with an offset below 0";
-  began_ = at.place;
-  plane_ = block.plane;
+  const bool isInside = phase_ != Phase::Off || block.isInCompensation;
+  if (isInside)
+    why = "a circular pocket under cutter compensation";
+  if (phase_ == Phase::Off) {
+    began_ = at.place;
+    plane_ = block.plane;
+  }
   if (!why.empty()) {
     lose(host, why, at.place);
     for (std::size_t i = at.move; i < end; ++i)
       host.leave(i, why);
-    if (!block.isInCompensation)
+    if (!isInside)
       phase_ = Phase::Off;
     return;
   }
