@@ -37,7 +37,8 @@ bool namesAxesAlone(const SourceFile &source, const SyntaxTree &tree, const Dial
   std::string text = toUpper(textWithoutRemarks(source, tree, id));
   std::erase_if(text, isBlank);
   const auto head = std::ranges::find_if_not(text, isDigit);
-  if (head != text.begin() && !isReferenceReturn({text.begin(), head}, dialect))
+  const auto digits = static_cast<std::size_t>(head - text.begin());
+  if (digits > 0 && !isReferenceReturn(std::string_view(text).substr(0, digits), dialect))
     return false;
   bool hasValue = true; // of the last letter
   for (auto c = head; c != text.end(); ++c) {
