@@ -331,7 +331,8 @@ void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const
     const FolderVote &asked = votes.at(isOfOwn ? folders.front() : *clear);
     LanguageGuess decided = asked.decide(candidate.guess);
     // The machine of a few programs in another folder is not that of this one.
-    if (isOfOwn || decided.dialect == nullptr || asked.speaksFor(decided.dialect))
+    const bool isAnother = decided.dialect != nullptr && decided.dialect != candidate.guess.dialect;
+    if (isOfOwn || !isAnother || asked.speaksFor(decided.dialect))
       candidate.guess = std::move(decided);
   }
 }

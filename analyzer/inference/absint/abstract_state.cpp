@@ -221,6 +221,9 @@ namespace {
 void forgetMovement(AbstractInterpretation &interpretation, AbstractState &state, const Dialect &dialect) {
   for (AbstractValue &coordinate : state.position)
     coordinate = interpretation.either(coordinate, AbstractValue::anyNumber());
+  auto &cycle = state.cycle; // Z and R are levels of a canned cycle, X and Z those of a turning cycle
+  for (AbstractValue *level : {&cycle.bottom, &cycle.retract, &cycle.initial, &cycle.peck, &cycle.dwell})
+    *level = interpretation.either(*level, interpretation.anything());
   for (AbstractValue &pending : state.transform.pending)
     if (pending.mayBeNumber())
       pending = interpretation.select(interpretation.isVacant(pending), pending,
