@@ -93,9 +93,10 @@ void checkLoop(const FlowFacts &facts, const LoopFlow &loop, const LoopExit &exi
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<NodeId> done;
   for (const LoopFlow &loop : loopsOf(facts)) {
-    if (!loop.exitsAreKnown || loop.exits.size() != 1 || loop.changesUnseen)
+    const LoopExit *only = onlyExit(loop);
+    if (!only)
       continue;
-    const LoopExit &exit = loop.exits.front();
+    const LoopExit &exit = *only;
     if (std::ranges::find(done, exit.test) != done.end())
       continue;
     done.push_back(exit.test);

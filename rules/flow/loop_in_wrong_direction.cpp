@@ -54,9 +54,10 @@ bool movesAway(const Bound &bound, const std::vector<LoopWrite> &writes, const F
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<NodeId> done;
   for (const LoopFlow &loop : loopsOf(facts)) {
-    if (!loop.exitsAreKnown || loop.exits.size() != 1 || loop.changesUnseen)
+    const LoopExit *only = onlyExit(loop);
+    if (!only)
       continue;
-    const LoopExit &exit = loop.exits.front();
+    const LoopExit &exit = *only;
     const auto bound = boundOf(exit, facts);
     const auto writes = bound ? writesTo(facts, loop, bound->variable) : std::nullopt;
     if (!writes || writes->empty() || !isFixed(bound->limit, exit, loop, facts) || !movesAway(*bound, *writes, facts))

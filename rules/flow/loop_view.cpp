@@ -144,6 +144,11 @@ std::string_view endlessnessOf(const LoopFlow &loop) {
   return loop.mayStop ? "only an alarm ends this loop" : "this loop never ends";
 }
 
+const LoopExit *onlyExit(const LoopFlow &loop) {
+  const bool isKnown = loop.exitsAreKnown && loop.exits.size() == 1 && !loop.changesUnseen;
+  return isKnown ? &loop.exits.front() : nullptr;
+}
+
 const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts) {
   return facts.derived<std::vector<LoopFlow>>([&] { return findLoops(facts); });
 }

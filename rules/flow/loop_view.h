@@ -36,6 +36,9 @@ struct LoopFlow {
 /// What a message may say of a loop without a way out: `this loop never ends`, unless an alarm may stop it.
 std::string_view endlessnessOf(const LoopFlow &loop);
 
+/// The one way out of a loop in which nothing changes unseen; null: there are others, or not all are known.
+const LoopExit *onlyExit(const LoopFlow &loop);
+
 /// The loops of a program, outer ones before those inside.
 const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts);
 

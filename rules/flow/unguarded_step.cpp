@@ -72,9 +72,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     return;
   std::vector<std::uint32_t> done;
   for (const LoopFlow &loop : loopsOf(facts)) {
-    if (!loop.exitsAreKnown || loop.exits.size() != 1 || loop.changesUnseen)
+    const LoopExit *only = onlyExit(loop);
+    if (!only)
       continue;
-    const LoopExit &exit = loop.exits.front();
+    const LoopExit &exit = *only;
     for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block)) {
       const auto counter = variableOf(facts, read.expression);
       const auto found = counter ? unguardedStep(*counter, loop, facts) : std::nullopt;
