@@ -201,6 +201,28 @@ void reportBehindSlash(const SyntaxIssue &issue, const FileContext &context, con
                              "put remarks in parentheses"}});
 }
 
+/// `01000` as the first block of a file: the number of the program, with a digit for its letter.
+bool isProgramNumber(const SyntaxIssue &issue, const FileContext &context) {
+  const std::string_view text = context.text(issue.span);
+  const BlockId block = context.tree.blockAt(issue.span.begin);
+  constexpr std::size_t kShortest = 4; // `0` and three digits
+  if (text.size() < kShortest || text.front() != '0' || !std::ranges::all_of(text, isDigit) ||
+      !context.tree.wordsOf(block).empty())
+    return false;
+  for (BlockId before(0); before < block; before = before.next())
+    if (!context.tree.wordsOf(before).empty() || !context.tree.statementsOf(before).empty())
+      return false;
+  return true;
+}
+
+void reportProgramNumber(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const Span digit{issue.span.begin, issue.span.begin + 1};
+  reporter.report({.message = fmt::format("{} has the digit 0 in the place of the letter O", context.quoted(issue.span)),
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                   .fixes = {{.title = "write the letter O", .edits = {{digit, "O"}}}}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isPlaceholder(context.text(issue.span)))
     return;
@@ -213,6 +235,8 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
     return reportUnlabelled(issue, context, reporter);
   if (reportOWord(issue, context, reporter))
     return;
+  if (isProgramNumber(issue, context))
+    return reportProgramNumber(issue, context, reporter);
   if (isBehindSlash(issue, context))
     return reportBehindSlash(issue, context, reporter);
   if (const Sign *sign = signAt(issue, context)) {

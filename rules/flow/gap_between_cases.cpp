@@ -33,7 +33,9 @@ std::optional<Case> caseIn(const FlowFacts &facts, const FileContext &context, N
     return std::nullopt;
   for (const Statement &statement : context.tree.statementsOf(block))
     if (const auto *assignment = std::get_if<Assignment>(&statement.node); assignment && statement.nested)
-      if (const auto set = variableNumber(context.tree, unwrapped(context.tree, assignment->target)))
+      // An alarm keeps no value: between two of them all is well.
+      if (const auto set = variableNumber(context.tree, unwrapped(context.tree, assignment->target));
+          set && !raisesAlarm(context.dialect, *set))
         return Case{block, *asked, *set, relation->op, *limit, context.tree.expressions[*test->condition].span};
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::rules {
 namespace {
@@ -41,10 +42,37 @@ bool mayPutRightUnseen(const MotionView &view, NodeId node) {
       view.wordsOf(node), [&](const Word *word) { return word->isCode() && !codeOf(*word, view.context().dialect); });
 }
 
+/// The switches with which the block of the node is skipped: `/`, `/2`.
+std::set<std::uint8_t> skipSwitchesOf(const MotionView &view, NodeId node) {
+  std::set<std::uint8_t> levels;
+  for (NodeId before = node; before.index() > 0;) {
+    before = NodeId(before.index() - 1);
+    if (view.node(before).block != view.node(node).block)
+      break;
+    if (const auto *skip = std::get_if<BlockSkip>(&view.node(before).instruction))
+      levels.insert(skip->level);
+  }
+  return levels;
+}
+
+/// `/G40`: the block takes the mode away, and is skipped by a switch with which the block that put it on is skipped,
+/// too.
+bool isSkippedTogether(NodeId node, const std::set<std::uint8_t> &switches, const LeftOn &mode,
+                       const MotionView &view) {
+  const auto *skip = std::get_if<BlockSkip>(&view.node(node).instruction);
+  if (!skip || !switches.contains(skip->level))
+    return false;
+  for (NodeId in = node.next(); in < skip->skipped && view.node(in).block == view.node(node).block; in = in.next())
+    if (decides(mode, view, in))
+      return true;
+  return false;
+}
+
 std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
                                    const FlowFacts &facts) {
+  const std::set<std::uint8_t> switches = skipSwitchesOf(view, from);
   const auto sets = [&](NodeId node) {
-    return decides(mode, view, node) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
+    return decides(mode, view, node) || isSkippedTogether(node, switches, mode, view) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
            (isHavocked(exit.state) && mayPutRightUnseen(view, node));
   };
   auto path = findPath(facts, from, exit.node, sets);

@@ -138,7 +138,9 @@ std::optional<CodeSet> MotionView::inForce(const AbstractState &state, ModalKind
 
 bool MotionView::wasSet(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
-  return codes && !isHavocked(state) && (codes->codes() & modes_->maskOf(kind, actions)) != 0;
+  if (isHavocked(state)) // set behind what is not known, or not at all
+    return surely(state, kind, actions);
+  return codes && (codes->codes() & modes_->maskOf(kind, actions)) != 0;
 }
 
 bool MotionView::surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {

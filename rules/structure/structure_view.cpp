@@ -91,11 +91,9 @@ bool isInside(const Loop &loop, BlockId block) {
 }
 
 bool isMotionCodeWithLetter(const FileContext &context, BlockId block, Span jump) {
-  const std::string_view text = context.text(jump);
-  const bool isCode = text.size() == 3 && toUpper(text.substr(0, 2)) == "GO" && text[2] >= '0' && text[2] <= '3';
-  return isCode && std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
-           return formatOf(context.dialect, word.address()).kind == AddressKind::Length;
-         });
+  return std::ranges::any_of(context.tree.statementsOf(block), [&](const Statement &statement) {
+    return statement.span == jump && motionCodeWithLetter(context.tree, block, statement, context.dialect);
+  });
 }
 
 bool hasCondition(const FileContext &context, const Loop &loop) {

@@ -233,10 +233,18 @@ void forgetMovement(AbstractInterpretation &interpretation, AbstractState &state
       interpretation.havocVariables(state, range.first, range.last);
 }
 
+void setMotionCode(AbstractState &state, const Dialect &dialect, std::uint16_t digit) {
+  const Code *code = findGCode(dialect, static_cast<std::uint16_t>(digit * 10));
+  if (const auto index = code ? ModalTable(dialect).indexOf(*code) : std::nullopt)
+    state.codes[code->group] = CodeSet::of(*index);
+}
+
 } // namespace
 
 void AbstractInterpretation::havoc(State &state, std::string_view reason, Span place) {
   unmodelled(reason, place);
+  if (const auto digit = std::ranges::find(kUnreadMotionCodes, reason); digit != kUnreadMotionCodes.end())
+    return setMotionCode(state, *dialect_, static_cast<std::uint16_t>(digit - kUnreadMotionCodes.begin()));
   if (reason == kUnreadMovement && state.modalCalls.empty() && !mayBeTrue(state.modalCallsUnknown))
     return forgetMovement(*this, state, *dialect_);
   havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});

@@ -93,7 +93,7 @@ public:
   }
   void userAlarm(const AbstractValue &number, Span place) override {
     if (outer_)
-      return;
+      return noteAlarmInCall(place);
     const auto [known, isNew] = userAlarmAt_.emplace(std::pair(place.begin, place.end), facts_.userAlarms_.size());
     if (isNew)
       facts_.userAlarms_.push_back({place, place_.node, number});
@@ -193,6 +193,12 @@ private:
       facts_.vacantReads_.push_back({*outer_, place_, expression, *variable});
   }
 
+  void noteAlarmInCall(Span place) {
+    constexpr int kMostOfOneCall = 20; // more than one are alternatives that the reader is not shown
+    if (++alarmsIn_[*outer_] <= kMostOfOneCall)
+      facts_.alarmsInCalls_.push_back({*outer_, place_, place});
+  }
+
   FlowFacts &facts_;
   AbstractInterpretation &interpretation_;
   std::span<FlowWatch *const> watches_;
@@ -207,6 +213,7 @@ private:
   std::map<NodeId, std::size_t> callAt_;
   std::set<ReadInCall> readAsVacant_;
   std::set<ReadInCall> readAsNumber_;
+  std::map<NodeId, int> alarmsIn_;
 };
 
 // A called program with as many computed jumps is costly, but bounded by the budget.

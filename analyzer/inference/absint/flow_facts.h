@@ -50,6 +50,13 @@ struct VacantReadInCall {
   std::uint32_t variable;
 };
 
+/// A program that a call enters raises an alarm of its own, in some of the runs through this call.
+struct AlarmInCall {
+  NodeId call; // of this program
+  Place raised;
+  Span place;
+};
+
 struct UnmodelledFact {
   NodeId node;
   std::string_view reason;
@@ -134,6 +141,7 @@ public:
   const std::vector<ExitFact> &exits() const { return exits_; } // by node
   const std::vector<CallFact> &calls() const { return calls_; } // by node
   const std::vector<VacantReadInCall> &vacantReads() const { return vacantReads_; }
+  const std::vector<AlarmInCall> &alarmsInCalls() const { return alarmsInCalls_; } // the first ones of each call
   const std::vector<UnmodelledFact> &unmodelled() const { return unmodelled_; }
 
   /// What several rules derive from these facts: make() for the first of them.
@@ -161,6 +169,7 @@ private:
   std::vector<ExitFact> exits_;
   std::vector<CallFact> calls_;
   std::vector<VacantReadInCall> vacantReads_;
+  std::vector<AlarmInCall> alarmsInCalls_;
   std::vector<UnmodelledFact> unmodelled_;
   mutable SearchTrail trail_;
   mutable std::map<std::type_index, std::shared_ptr<const void>> derived_;

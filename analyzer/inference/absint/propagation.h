@@ -69,6 +69,7 @@ private:
   void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
   void startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state);
   void addExit(std::optional<AbstractValue> target, AbstractState state);
+  void missingCall(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state);
   void unknownCall(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state,
                    std::string_view reason);
   void refineByAlarms(NodeId node, AbstractState &state);

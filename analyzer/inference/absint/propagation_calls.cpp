@@ -37,6 +37,14 @@ void Propagation::unknownCall(NodeId node, const CallRequest<AbstractInterpretat
   havocCall(context, request, reason);
 }
 
+/// Of a program that is not among the files: like proofs, the analysis takes it to start and end no modal call.  Else
+/// each movement behind it might call a program, and nothing would be known any more.
+void Propagation::missingCall(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state) {
+  const Truth modal = state.modalCallsUnknown;
+  unknownCall(node, request, state, "a program that was not supplied");
+  state.modalCallsUnknown = modal;
+}
+
 std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractInterpretation> &request,
                                                 AbstractState state) {
   if (!request.callee) {
@@ -50,7 +58,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
     engine_.unmodelledEntries_.insert(request.possible.begin(), request.possible.end());
     if (!request.possible.empty())
       return enterUnmodelled(node, request, std::move(state));
-    unknownCall(node, request, state, "a program that was not supplied");
+    missingCall(node, request, state);
     return state;
   }
   const auto times = repeatsOf(interpretation_, request);

@@ -64,6 +64,11 @@ void LineScanner::scanHead() {
     scanOWord();
   else if (toUpper(peek()) == 'M')
     scanPrinterCommand();
+  else if (beginsUpper(rest(), "DEFINE <")) {
+    count(TextSignal::CentroidStatement);
+    hasWord_ = true;
+    stop();
+  }
 }
 
 /// `M118 Probing`, `M104 S200`: messages and heaters of hobby controls and printers.

@@ -508,9 +508,10 @@ void LineScanner::scanAngle() {
     ++at_;
     return;
   }
-  count(TextSignal::FanucProgramName);
   hasWord_ = true;
   at_ = end + 1;
+  skipBlanks();
+  count(peek() == '=' ? TextSignal::CentroidStatement : TextSignal::FanucProgramName); // `<SPEED> = #S`
 }
 
 void LineScanner::scanString() {

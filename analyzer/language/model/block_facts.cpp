@@ -131,11 +131,26 @@ bool ends(CodeRole role) { return role == CodeRole::ProgramEnd || role == CodeRo
 
 } // namespace
 
+std::optional<unsigned> motionCodeWithLetter(const SyntaxTree &tree, BlockId block, const Statement &statement,
+                                             const Dialect &dialect) {
+  constexpr std::uint32_t kLength = 3; // `GO1`
+  const auto *jump = std::get_if<Goto>(&statement.node);
+  const auto target = jump && jump->target ? literalValue(tree, *jump->target) : std::nullopt;
+  if (!target || statement.span.size() != kLength || target->toDouble() > 3)
+    return std::nullopt;
+  const bool isMoved = std::ranges::any_of(tree.wordsOf(block), [&](const Word &word) {
+    return formatOf(dialect, word.address()).kind == AddressKind::Length;
+  });
+  return isMoved ? std::optional(static_cast<unsigned>(target->toDouble())) : std::nullopt;
+}
+
 FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
   FlowAfter flow = FlowAfter::Next;
   for (const Statement &statement : tree.statementsOf(block))
     if (!statement.nested)
-      flow = std::max(flow, flowOfStatement(tree, statement, dialect));
+      flow = std::max(flow, motionCodeWithLetter(tree, block, statement, dialect)
+                                ? FlowAfter::MayJump
+                                : flowOfStatement(tree, statement, dialect));
   for (const Word &word : tree.wordsOf(block)) {
     const Code *code = codeOf(word, dialect);
     if (!code || !ends(code->role))

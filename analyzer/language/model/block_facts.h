@@ -33,6 +33,11 @@ enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
 /// Ends: M02, M30, M99, `#3000=`, `o100 endsub`.  Jumps: an unconditional GOTO, `break`, `continue`, `return`.
 FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
 
+/// `GO1X25.`: the digit of a motion code with the letter O.  The control reads `GOTO 1`, and stops at the words behind
+/// it.  Absent: the statement is none.
+std::optional<unsigned> motionCodeWithLetter(const SyntaxTree &tree, BlockId block, const Statement &statement,
+                                             const Dialect &dialect);
+
 /// The text of the block, its comments apart, has a letter other than N with a number, a variable or an expression
 /// behind it: of a block that could not be read, whether it may have been meant to hold a code or a coordinate.
 bool mayNameWord(const SourceFile &source, const SyntaxTree &tree, BlockId block);

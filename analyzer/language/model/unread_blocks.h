@@ -4,6 +4,7 @@
 #include "language/dialect/dialect.h"
 #include "language/syntax/tree.h"
 
+#include <array>
 #include <string_view>
 
 namespace feedhold {
@@ -14,5 +15,10 @@ bool namesAxesAlone(const SourceFile &source, const SyntaxTree &tree, const Dial
 
 /// Why such a block is not followed.  An interpretation that goes on behind mistakes takes it for a movement.
 inline constexpr std::string_view kUnreadMovement = "a block of coordinates that could not be read";
+
+/// Why a block with a code such as `GO1` is not followed, by the digit.  An interpretation that goes on behind mistakes
+/// takes the code for the one that is meant.
+inline constexpr std::array<std::string_view, 4> kUnreadMotionCodes = {
+    "a G00 with the letter O", "a G01 with the letter O", "a G02 with the letter O", "a G03 with the letter O"};
 
 } // namespace feedhold

@@ -97,6 +97,9 @@ void Lowering::wholeBlock(BlockId id) {
   if (isUnread(id)) {
     brokenBlock(blockWords);
   } else {
+    for (const Statement &statement : tree_.statementsOf(id))
+      if (const auto digit = motionCodeWithLetter(tree_, id, statement, dialect_))
+        emit(Havoc{kUnreadMotionCodes[*digit]});
     words(blockWords);
     statements();
     calls(blockWords);

@@ -88,6 +88,13 @@ const Jump *Lowering::jumpOf(const Statement &statement) const {
 }
 
 void Lowering::gotoStatement(const Statement &statement) {
+  if (motionCodeWithLetter(tree_, block_, statement, dialect_)) {
+    const NodeId maybe = emitTest(std::nullopt);
+    if (const Jump *jump = jumpOf(statement))
+      goTo(*jump);
+    setNext(maybe, end());
+    return;
+  }
   if (const Jump *jump = jumpOf(statement))
     goTo(*jump);
   else
