@@ -58,6 +58,15 @@ class SetUp(Scratch):
         self.assertEqual(set(self.ranges().values()), {"refuted"})
         self.assertEqual(self.check("job").returncode, 0)
 
+    def test_corners_of_the_machine(self):
+        for own, rounded, expected in (("", "", "proved"), ("", "@CORNER 0.05\n", "refuted"),
+                                       ("(@CORNER 0)\n", "@CORNER 0.05\n", "proved"),
+                                       ("(@CORNER 0.05)\n", "@CORNER 0\n", "refuted")):
+            self.program(own + "(@CLEARANCE Z50.)")
+            self.write(MACHINE, SET_UP + rounded)
+            clear = {verdict for name, verdict in self.verdicts().items() if ".clearance." in name}
+            self.assertIn(expected, clear, (own, rounded))
+
     def test_only_with_a_contract(self):
         self.write("job/part.nc", "O2000\nG53 G00 X-300. Y0 Z0\nM99\n")
         self.write(MACHINE, SET_UP)

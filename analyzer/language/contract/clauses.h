@@ -52,8 +52,18 @@ struct SetUpValue {
 std::vector<SetUpValue> readWorkOffset(ClauseReader &reader, const ContractReading &reading);
 /// Of `@LENGTH H1 50..200`
 LengthRange readLength(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
+/// Of `@CORNER 0.05`; absent: the clause has an issue.
+std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
 /// Behind HOME: to where G28 returns.  Machine zero, unless the control keeps it in variables.
 std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &reading);
+
+/// The clauses that a machine has in common for all programs, and that its sidecar file may hold.
+bool isOfSetUp(ClauseKind kind);
+
+/// Blocks to which a jump leads back, in their order.
+std::vector<BlockId> jumpHeads(const ProgramModel &model);
+/// A DO, the head of a loop of o-words, or a block to which a jump leads back or may lead.
+bool isLoopHead(const ContractReading &reading, ProgramId program, BlockId block);
 
 /// What can only be seen in the whole contract.
 void checkContracts(ContractReading &reading);

@@ -52,6 +52,8 @@ Decimal toleranceOf(const Contract &contract, const Dialect &dialect) {
   return unitsOf(contract, dialect) == CodeAction::Inch ? increments.inch : increments.metric;
 }
 
+Decimal cornerOf(const Contract &contract) { return contract.corner ? contract.corner->most : Decimal::fromInteger(0); }
+
 const Contract *FileContracts::of(ProgramId program) const {
   const auto found = std::ranges::lower_bound(contracts, program, {}, &Contract::program);
   return found == contracts.end() || found->program != program ? nullptr : &*found;
@@ -102,15 +104,6 @@ void addSetUp(ContractReading &reading, std::span<const Sidecar> sidecars) {
   for (std::size_t i = 0; i < reading.result.contracts.size(); ++i)
     for (const RawClause &raw : findSetUp(sidecars, reading.result.contracts[i].program))
       readClause(reading, raw);
-}
-
-std::vector<BlockId> jumpHeads(const ProgramModel &model) {
-  std::vector<BlockId> heads;
-  for (const Jump &jump : model.jumps)
-    if (jump.target && *jump.target <= jump.block)
-      heads.push_back(*jump.target);
-  std::ranges::sort(heads);
-  return heads;
 }
 
 } // namespace

@@ -178,6 +178,12 @@ struct MachineRange {
   ClauseId clause;
   Box box;
 };
+/// `@CORNER 0.05`: how far the tool leaves the programmed path where the machine rounds corners, in the units of the
+/// start.
+struct CornerRounding {
+  ClauseId clause;
+  Decimal most; // 0 or more
+};
 /// `@LIMIT F 1..5000`
 struct WordLimit {
   ClauseId clause;
@@ -258,6 +264,7 @@ struct Contract {
   std::optional<Clearance> clearance;
   std::optional<Travel> travel;
   std::optional<MachineRange> machine;
+  std::optional<CornerRounding> corner;
   std::vector<WordLimit> limits;
   std::vector<Ensure> ensures;
   std::optional<EqualTolerance> tolerance;
@@ -277,6 +284,10 @@ struct Contract {
 std::optional<CodeAction> unitsOf(const Contract &contract, const Dialect &dialect);
 /// Of `@TOLERANCE`, or one least input increment.
 Decimal toleranceOf(const Contract &contract, const Dialect &dialect);
+
+/// Of `@CORNER`: how far from the programmed path the tool may be, on any side of it.  Without the clause it is on the
+/// path.
+Decimal cornerOf(const Contract &contract);
 
 enum class ContractIssueKind : std::uint8_t {
 #define CONTRACT_ISSUE(kind) kind,

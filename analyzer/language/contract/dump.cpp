@@ -157,6 +157,8 @@ private:
       line("travel" + writer(contract.travel->clause).text(contract.travel->box));
     if (contract.machine)
       line("machine" + writer(contract.machine->clause).text(contract.machine->box));
+    if (contract.corner)
+      line("corners rounded by " + contract.corner->most.toString());
     for (const WordLimit &each : contract.limits)
       line(fmt::format("limit {}: {}", each.address, writer(each.clause).text(each.range)));
   }

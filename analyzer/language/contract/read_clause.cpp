@@ -49,6 +49,7 @@ private:
     case ClauseKind::Offset: return offset();
     case ClauseKind::Length: return length();
     case ClauseKind::Machine: return machine();
+    case ClauseKind::Corner: return corner();
     case ClauseKind::KeepIn: return region(contract_.keepIn);
     case ClauseKind::KeepOut: return region(contract_.keepOut);
     case ClauseKind::Clearance: return clearance();
@@ -278,6 +279,11 @@ private:
     setOnce(contract_.machine, MachineRange{id_, std::move(box)}, "the range of the machine");
     addValues(std::move(home));
   }
+  void corner() {
+    const std::optional<CornerRounding> corner = readCorner(reader_, reading_, id_);
+    if (isRead())
+      setOnce(contract_.corner, *corner, "the rounding of corners");
+  }
   void addValues(std::vector<SetUpValue> values) {
     if (!isRead())
       return;
@@ -460,7 +466,7 @@ private:
   std::optional<BlockId> loopHead() {
     const std::optional<BlockId> block = raw_.source == kProgramText ? raw_.place : blockOfNumber();
     const Span span = raw_.number.value_or(reading_.result.clauses[id_].span);
-    if (block && !reader_.failed() && isLoopHead(*block))
+    if (block && !reader_.failed() && isLoopHead(reading_, contract_.program, *block))
       return block;
     reader_.fail(ContractIssueKind::Place, span, "no loop begins there");
     return std::nullopt;
@@ -489,21 +495,6 @@ private:
                  found.empty() ? fmt::format("the program has no N{}", number)
                                : fmt::format("the program has N{} {} times", number, found.size()));
     return std::nullopt;
-  }
-
-  /// A DO, the head of a loop of o-words, or a block to which a jump leads back.
-  bool isLoopHead(BlockId block) const {
-    const ProgramModel &model = reading_.model;
-    if (!model.loopsIn(block, block.next()).empty())
-      return true;
-    for (const OWordUse &use : model.oWordsIn(block, block.next()))
-      if (use.kind == OWordKind::While || use.kind == OWordKind::Do || use.kind == OWordKind::Repeat)
-        return true;
-    if (std::ranges::binary_search(reading_.jumpHeads, block))
-      return true;
-    const bool isLabel = !model.sequenceNumbersIn(block, block.next()).empty();
-    return isLabel && std::ranges::any_of(model.jumpsOf(contract_.program),
-                                          [](const Jump &jump) { return jump.computed.has_value(); });
   }
 
   ContractSourceId source() const { return raw_.source; }
@@ -591,9 +582,9 @@ void readClause(ContractReading &reading, const RawClause &raw) {
     return refuse(reading, raw, *raw.number,
                   fmt::format("no `@AT`, since `{}` applies to the whole program", head.name));
   }
-  const bool isOfSetUp = kind == ClauseKind::Offset || kind == ClauseKind::Length || kind == ClauseKind::Machine;
-  if (raw.scope == SidecarScope::Machine && !isOfSetUp)
-    return refuse(reading, raw, head.keyword, "`@OFFSET`, `@LENGTH` or `@MACHINE`; others belong to a program");
+  if (raw.scope == SidecarScope::Machine && !isOfSetUp(kind))
+    return refuse(reading, raw, head.keyword,
+                  "`@OFFSET`, `@LENGTH`, `@MACHINE` or `@CORNER`; others belong to a program");
   ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
 }
 

@@ -1,4 +1,5 @@
-// The clauses of the set-up: work offsets, tool lengths, the range and the reference position of the machine.
+// The clauses of the set-up: work offsets, tool lengths, the range and the reference position of the machine, and how
+// it rounds corners.
 #include "language/contract/clauses.h"
 
 #include <fmt/format.h>
@@ -67,6 +68,16 @@ LengthRange readLength(ClauseReader &reader, const ContractReading &reading, Cla
   return length;
 }
 
+std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractReading &reading, ClauseId clause) {
+  constexpr std::string_view kExpected = "how far the tool leaves the path at corners: a number from 0, such as `0.05`";
+  const Span span = reader.ahead();
+  const ExpressionId number = reader.value(kExpected);
+  const auto most = reader.failed() ? std::nullopt : literalValue(reading.result.tree, number);
+  if (!most || *most < Decimal::fromInteger(0))
+    reader.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
+  return most ? std::optional(CornerRounding{clause, *most}) : std::nullopt;
+}
+
 std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &reading) {
   const Span span = reader.ahead();
   const std::vector<AxisValue> axes = readAxisValues(reader, kOffsetAxes);
@@ -82,6 +93,11 @@ std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &re
       reader.fail(ContractIssueKind::Malformed, span, "0 for each axis: G28 of this control returns to machine zero");
   }
   return home;
+}
+
+bool isOfSetUp(ClauseKind kind) {
+  return kind == ClauseKind::Offset || kind == ClauseKind::Length || kind == ClauseKind::Machine ||
+         kind == ClauseKind::Corner;
 }
 
 } // namespace feedhold

@@ -108,9 +108,9 @@ void ProofStart::readContract(const ProofSubject &subject) {
   codes_ = entry_.codes;
   leaveMappingsOpen(subject);
   demands_ = terms_->demands(contract, entry_);
-  const TermId tolerance = interpretation_.arithmetic() == Arithmetic::Exact
-                               ? store_.number(smt::Number(0))
-                               : interpretation_.literal(toleranceOf(contract, subject.dialect())).number;
+  const smt::Number tolerance = interpretation_.arithmetic() == Arithmetic::Exact
+                                    ? smt::Number(0)
+                                    : smt::Number::fromDouble(toleranceOf(contract, subject.dialect()).toDouble());
   space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_, subject.dialect(), tolerance);
   std::ranges::copy(space_->startIsOutside(), std::back_inserter(demands_));
 }

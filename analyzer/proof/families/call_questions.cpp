@@ -36,7 +36,7 @@ std::vector<TermId> assumedOf(smt::TermStore &store, ContractTerms &terms, const
                               const SymbolicState &state, const Dialect &dialect) {
   std::vector<TermId> assumed = terms.assumptions(contract, state);
   if (contract.machine) {
-    const SpaceClaims space(store, terms, contract, state, dialect, store.number(smt::Number(0)));
+    const SpaceClaims space(store, terms, contract, state, dialect, smt::Number(0));
     std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
   }
   return assumed;

@@ -10,21 +10,9 @@
 
 namespace feedhold::prove {
 
-using geometry::SpaceClaim;
-
 namespace {
 
 constexpr int kShownDecimals = 4; // a control shows three in millimetres and four in inches
-
-SpaceClaim plainClaim(const SpaceRule &rule) {
-  if (rule.kind == ObligationKind::KeepIn)
-    return SpaceClaim::KeepIn;
-  if (rule.kind == ObligationKind::KeepOut)
-    return SpaceClaim::KeepOut;
-  if (rule.kind == ObligationKind::Clearance)
-    return SpaceClaim::Clearance;
-  return rule.isOfMachine ? SpaceClaim::Machine : SpaceClaim::Travel;
-}
 
 std::string howFar(const SpaceRule &rule, double depth) {
   const std::string distance = depth < 1e-4 ? "less than 0.0001" : decimalText(depth, kShownDecimals);
@@ -51,7 +39,10 @@ std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const Re
                                : "";
   const std::string place = machine == MachineKind::Turning ? fmt::format("X{} Z{}", shown[0], shown[2])
                                                             : fmt::format("X{} Y{} Z{}", shown[0], shown[1], shown[2]);
-  return fmt::format("{} at {}{}", howFar(rule, gouge.depth), place, tool);
+  const std::string beside = gouge.beside > 0 ? fmt::format(", where it may be {} beside its path (`@CORNER`)",
+                                                            decimalText(gouge.beside, kShownDecimals))
+                                              : "";
+  return fmt::format("{} at {}{}{}", howFar(rule, gouge.depth), place, tool, beside);
 }
 
 /// Of the coordinates, and of what is added to them on the way to machine coordinates.
@@ -72,7 +63,7 @@ geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &
 } // namespace
 
 std::optional<geometry::Gouge> SpaceRuns::gougeIn(const RunResult &run, const GivenVariables &given) const {
-  const auto gouge = geometry::deepestGouge(spaceOf(context_, given), plainClaim(rule_), rule_.region, run.moves,
+  const auto gouge = geometry::deepestGouge(spaceOf(context_, given), claimOf(rule_), rule_.region, run.moves,
                                             [this](const RecordedMove &move) { return move.own == own_; });
   return gouge && gouge->depth >= leastDepth(run.moves) ? gouge : std::nullopt;
 }
@@ -118,7 +109,7 @@ std::optional<double> SpaceRuns::nearest() const {
   std::optional<double> nearest;
   for (const WitnessSearch::Sample &sample : context_.witnesses.samples()) {
     const auto margin =
-        geometry::smallestMargin(spaceOf(context_, sample.given), plainClaim(rule_), rule_.region, sample.result.moves,
+        geometry::smallestMargin(spaceOf(context_, sample.given), claimOf(rule_), rule_.region, sample.result.moves,
                                  [this](const RecordedMove &move) { return move.own == own_; });
     if (margin && (!nearest || *margin < *nearest))
       nearest = margin;

@@ -437,15 +437,22 @@ template <typename Make> FreeSpace owning(TermStore &store, const Tool<TermId> &
 
 FreeSpace inside(TermStore &store, const Box<TermId> &box) {
   const TermId zero = store.number(Number(0));
-  return inside(store, {zero, zero}, {TermShape(box)});
+  return inside(store, {zero, zero}, TermShape(box));
+}
+
+FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const TermShape &part) {
+  return owning(store, tool,
+                [&](const SpaceOf &of) { return match(part, [&](const auto &shape) { return of.inside(shape); }); });
 }
 
 FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const std::vector<TermShape> &region) {
   std::vector<FreeSpace> spaces;
   for (const TermShape &part : region)
-    spaces.push_back(owning(store, tool, [&](const SpaceOf &of) {
-      return match(part, [&](const auto &shape) { return of.inside(shape); });
-    }));
+    spaces.push_back(inside(store, tool, part));
+  return inOneOf(store, std::move(spaces));
+}
+
+FreeSpace inOneOf(TermStore &store, std::vector<FreeSpace> spaces) {
   if (spaces.size() == 1)
     return std::move(spaces.front());
   FreeSpace all;
@@ -462,6 +469,19 @@ FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const std::vector<T
     return store.logicalOr(cases);
   };
   return all;
+}
+
+FreeSpace deepIn(TermStore &store, FreeSpace space, TermId distance) {
+  return {{}, [&store, distance, inner = std::move(space.all)](const TermPoint &p) {
+            TermPoint beside = p;
+            TermId square = store.number(Number(0));
+            for (TermId &coordinate : beside) {
+              const TermId away = freshVariable(store, "beside the path");
+              coordinate = store.add(coordinate, away);
+              square = store.add(square, store.multiply(away, away));
+            }
+            return store.implies(store.lessOrEqual(square, store.multiply(distance, distance)), inner(beside));
+          }};
 }
 
 FreeSpace outside(TermStore &store, const Tool<TermId> &tool, const TermShape &part) {

@@ -39,8 +39,13 @@ struct FreeSpace {
 
 /// Sides in which bounds are written, for the point alone.
 FreeSpace inside(TermStore &store, const Box<TermId> &box);
+FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const TermShape &part);
 /// Parts of a region are taken one at a time: a tool that is half in one and half in another is in none.
 FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const std::vector<TermShape> &region);
+/// In one of several spaces.
+FreeSpace inOneOf(TermStore &store, std::vector<FreeSpace> spaces);
+/// All that lies no further from the point than the distance is in the space.
+FreeSpace deepIn(TermStore &store, FreeSpace space, TermId distance);
 FreeSpace outside(TermStore &store, const Tool<TermId> &tool, const TermShape &part);
 
 /// The tool is one, and the part of a region has an inside: without that the formulas mean nothing.

@@ -1,7 +1,7 @@
 #include "proof/geometry/gouge.h"
 
 #include "base/support/check.h"
-#include "proof/geometry/gouge_depth.h"
+#include "proof/geometry/gouge_reach.h"
 #include "proof/geometry/gouge_search.h"
 
 #include <algorithm>
@@ -30,12 +30,12 @@ Tool<double> toolOf(const PlainSpace &space) {
 /// Of points that are tried where nothing is known of how a depth changes.
 double stepOf(const Tool<double> &tool) { return std::max(tool.radius / 4, 0.05); }
 
-std::optional<Deepest> outsideOnPath(const PlainRegion &region, const Tool<double> &tool, const GougePath &path,
+std::optional<Deepest> outsideOnPath(const PlainRegion &region, const ToolReach &reach, const GougePath &path,
                                      double floor) {
   const auto &parts = region.parts;
   const bool isConvexLine = path.isStraight() && std::all_of(parts.begin(), parts.end(), isConvex);
   const auto atEnds = [&](const PlainShape &part) {
-    return std::max(depthOutside(part, tool, path.start()), depthOutside(part, tool, path.end()));
+    return std::max(reach.outside({"", {part}}, path.start()), reach.outside({"", {part}}, path.end()));
   };
   if (isConvexLine && parts.size() > 1 &&
       std::any_of(parts.begin(), parts.end(), [&](const PlainShape &part) { return atEnds(part) <= floor; }))
@@ -47,44 +47,44 @@ std::optional<Deepest> outsideOnPath(const PlainRegion &region, const Tool<doubl
       return Course::SingleAxes;
     return isConvexLine && parts.size() == 1 ? Course::RisesToEnds : Course::NoFaster;
   };
-  const Depth depth = [&](const Point<double> &point) { return depthOutside(region, tool, point); };
-  return deepestOnPath(path, {depth, course(), floor, stepOf(tool)});
+  const Depth depth = [&](const Point<double> &point) { return reach.outside(region, point); };
+  return deepestOnPath(path, {depth, course(), floor, stepOf(reach.tool())});
 }
 
 /// Axes that each go at a rate of their own may be anywhere in the box between the ends; the tool reaches up without
 /// end, so that it is deepest at the lower end.
-std::optional<Deepest> insideInBox(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
+std::optional<Deepest> insideInBox(const PlainShape &part, const ToolReach &reach, const GougePath &path,
                                    double floor) {
-  const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
+  const Depth depth = [&](const Point<double> &point) { return reach.inside(part, point); };
   Point<double> low = path.start();
   Point<double> high = path.end();
   low[2] = high[2] = std::min(low[2], high[2]);
   const auto place = deepestInRectangle(part, low, high);
   if (!place) {
     const Course course = hasDistances(part) ? Course::NoFaster : Course::Any;
-    return deepestInRectangle(low, high, {depth, course, floor, 2 * stepOf(tool)});
+    return deepestInRectangle(low, high, {depth, course, floor, 2 * stepOf(reach.tool())});
   }
   const Point<double> point{(*place)[0], (*place)[1], low[2]};
   const double there = depth(point);
   return there > floor ? std::optional(Deepest{point, there}) : std::nullopt;
 }
 
-std::optional<Deepest> insideOnPath(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
+std::optional<Deepest> insideOnPath(const PlainShape &part, const ToolReach &reach, const GougePath &path,
                                     double floor) {
-  const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
+  const Depth depth = [&](const Point<double> &point) { return reach.inside(part, point); };
   const bool isHill = path.isStraight() && isConvex(part);
   const Course course = !hasDistances(part) ? Course::Any : isHill ? Course::RisesToOne : Course::NoFaster;
-  return deepestOnPath(path, {depth, course, floor, stepOf(tool)});
+  return deepestOnPath(path, {depth, course, floor, stepOf(reach.tool())});
 }
 
-std::optional<Deepest> insideOfRegion(const PlainRegion &region, const Tool<double> &tool, const RecordedMove &recorded,
+std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach &reach, const RecordedMove &recorded,
                                       double floor) {
   const GougePath path(recorded);
   std::optional<Deepest> worst;
   for (const PlainShape &part : region.parts) {
     const double least = worst ? worst->depth : floor;
-    const auto found = recorded.move.kind == MoveKind::Rapid ? insideInBox(part, tool, path, least)
-                                                             : insideOnPath(part, tool, path, least);
+    const auto found = recorded.move.kind == MoveKind::Rapid ? insideInBox(part, reach, path, least)
+                                                             : insideOnPath(part, reach, path, least);
     if (found)
       worst = found;
   }
@@ -138,15 +138,15 @@ private:
 class Run {
 public:
   Run(const PlainSpace &space, SpaceClaim claim, std::size_t region, const MoveFilter &filter, double floor)
-      : space_(space), tool_(toolOf(space)), claim_(claim), region_(region), filter_(filter), floor_(floor),
-        clearance_(space.clearance.value_or(0)) {}
+      : space_(space), tool_(toolOf(space)), reach_(tool_, isOfToolBesidePath(claim) ? space.corner : 0), claim_(claim),
+        region_(region), filter_(filter), floor_(floor), clearance_(space.clearance.value_or(0) + reach_.beside()) {}
 
   std::optional<Gouge> deepest(std::span<const RecordedMove> moves) {
     std::optional<Gouge> worst;
     const auto look = [&](const RecordedMove &move, std::size_t index) {
       const auto found = depthOf(move, worst ? worst->depth + kDeeper : floor_);
       if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
-        worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt};
+        worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt, reach_.beside()};
     };
     for (std::size_t i = 0; i < moves.size(); ++i)
       if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
@@ -179,8 +179,8 @@ private:
     case SpaceClaim::KeepIn:
       if (!isCutting(recorded.move.kind))
         return std::nullopt;
-      return outsideOnPath(space_.keepIn[region_], tool_, GougePath(recorded), floor);
-    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], tool_, recorded, floor);
+      return outsideOnPath(space_.keepIn[region_], reach_, GougePath(recorded), floor);
+    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], reach_, recorded, floor);
     case SpaceClaim::Clearance: return tooLow;
     case SpaceClaim::Travel: return outsideOfLimits(space_.travel, recorded, floor);
     case SpaceClaim::Machine: return outsideOfLimits(space_.machine, recorded, floor);
@@ -223,6 +223,7 @@ private:
 
   const PlainSpace &space_;
   Tool<double> tool_;
+  ToolReach reach_;
   SpaceClaim claim_;
   std::size_t region_;
   const MoveFilter &filter_;
@@ -231,6 +232,17 @@ private:
 };
 
 } // namespace
+
+bool isOfToolBesidePath(SpaceClaim claim) {
+  switch (claim) {
+  case SpaceClaim::KeepIn:
+  case SpaceClaim::KeepOut:
+  case SpaceClaim::Clearance: return true;
+  case SpaceClaim::Travel:
+  case SpaceClaim::Machine: return false;
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every claim");
+}
 
 std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
                                   std::span<const RecordedMove> moves, const MoveFilter &filter) {

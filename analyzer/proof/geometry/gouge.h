@@ -25,6 +25,7 @@ struct PlainSpace {
   /// The contract tells lengths of tools: coordinates are those of the tip where one is in force, and only there.
   bool knowsLengths = false;
   std::optional<double> longest = {}; // of them, with which the tip is lowest
+  double corner = 0;                  // how far from its path the tool may be, on any side
 };
 
 enum class SpaceClaim : std::uint8_t {
@@ -35,11 +36,16 @@ enum class SpaceClaim : std::uint8_t {
   Machine,   // the same in machine coordinates
 };
 
+/// Whether a claim is about the tool itself, which may leave its path, and not about the points that are commanded: the
+/// limits of an axis are limits of these.
+bool isOfToolBesidePath(SpaceClaim claim);
+
 struct Gouge {
   std::size_t move;                  // index
-  Point<double> at;                  // the point of the tool
+  Point<double> at;                  // the point of the tool on its path
   double depth;                      // by how much the tool is wrong there, above 0
   std::optional<double> length = {}; // of the tool in the spindle, where none is in force: PlainSpace::longest
+  double beside = 0;                 // how far from its path the tool is deepest: PlainSpace::corner
 };
 
 /// Which moves are looked at; empty: all.  What came before them still counts.

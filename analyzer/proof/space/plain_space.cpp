@@ -94,6 +94,7 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   space.longest = longestLength(*contract, *numbers);
   if (contract->machine)
     space.machine = shapes.sides(contract->machine->box);
+  space.corner = cornerOf(*contract).toDouble();
   return space;
 }
 

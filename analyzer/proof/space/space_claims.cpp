@@ -16,76 +16,6 @@ using smt::TermId;
 
 namespace {
 
-bool isCondition(const TermShape &part) { return std::holds_alternative<geometry::Condition<TermId, TermId>>(part); }
-
-std::vector<FreeSpace> spacesOf(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
-                                const std::vector<TermShape> &parts) {
-  if (kind == ObligationKind::KeepIn)
-    return {geometry::inside(store, tool, parts)};
-  std::vector<FreeSpace> spaces;
-  for (const TermShape &part : parts)
-    spaces.push_back(geometry::outside(store, tool, part));
-  return spaces;
-}
-
-/// For a tool whose point is so much higher.
-void raiseTool(smt::TermStore &store, FreeSpace &space, TermId height) {
-  const auto raise = [&store, height](geometry::Formula &formula) {
-    formula = [&store, height, inner = std::move(formula)](const TermPoint &point) {
-      return inner({point[0], point[1], store.add(point[2], height)});
-    };
-  };
-  raise(space.all);
-  for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
-    for (geometry::Formula &formula : *formulas)
-      raise(formula);
-  for (FreeSpace::Beyond &beyond : space.beyond)
-    beyond = [&store, height, inner = std::move(beyond)](const TermPoint &anchor, const TermPoint &point) {
-      return inner({anchor[0], anchor[1], store.add(anchor[2], height)},
-                   {point[0], point[1], store.add(point[2], height)});
-    };
-}
-
-/// A region may be passed by the tolerance.
-std::vector<FreeSpace> spacesWithin(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
-                                    const std::vector<TermShape> &parts, TermId tolerance) {
-  if (kind == ObligationKind::KeepIn) {
-    const TolerantRegion region = keptInWithin(store, tool, parts, tolerance);
-    return spacesOf(store, kind, region.tool, region.parts);
-  }
-  const std::optional<geometry::Tool<TermId>> smaller =
-      tolerance == store.number(smt::Number(0)) ? std::nullopt : eroded(store, tool, tolerance);
-  if (!smaller)
-    return spacesOf(store, kind, tool, parts);
-  std::vector<FreeSpace> spaces = spacesOf(store, kind, *smaller, parts);
-  for (FreeSpace &space : spaces)
-    raiseTool(store, space, tolerance);
-  return spaces;
-}
-
-/// Also of its upper border, to which a larger tool comes no nearer.
-std::vector<FreeSpace> insideWithMargin(smt::TermStore &store, geometry::Tool<TermId> tool,
-                                        std::vector<TermShape> parts, TermId margin) {
-  for (TermShape &part : parts)
-    part = shrunk(store, part, margin);
-  if (std::any_of(parts.begin(), parts.end(),
-                  [](const TermShape &part) { return std::holds_alternative<geometry::Prism<TermId>>(part); }))
-    tool.radius = store.add(tool.radius, margin);
-  return spacesOf(store, ObligationKind::KeepIn, tool, parts);
-}
-
-/// By a tool that is larger, whose point lies lower by as much.
-std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::Tool<TermId> &tool,
-                                         const std::vector<TermShape> &parts, TermId margin) {
-  const geometry::Tool<TermId> larger{store.add(tool.radius, margin), store.add(tool.corner, margin)};
-  std::vector<FreeSpace> spaces = spacesOf(store, ObligationKind::KeepOut, larger, parts);
-  for (FreeSpace &space : spaces) {
-    raiseTool(store, space, store.negate(margin));
-    space.beyond.clear(); // margins are found without
-  }
-  return spaces;
-}
-
 /// Where the path is an arc about an upright axis: that the circle lies in the space.
 std::optional<TermId> aroundOf(const FreeSpace &space, const geometry::ToolPath &path, const geometry::TermMove &move) {
   if (!space.around || !path.isUprightArc())
@@ -100,11 +30,22 @@ bool hasSpaceClause(const Contract &contract) {
          contract.machine;
 }
 
+geometry::SpaceClaim claimOf(const SpaceRule &rule) {
+  if (rule.kind == ObligationKind::KeepIn)
+    return geometry::SpaceClaim::KeepIn;
+  if (rule.kind == ObligationKind::KeepOut)
+    return geometry::SpaceClaim::KeepOut;
+  if (rule.kind == ObligationKind::Clearance)
+    return geometry::SpaceClaim::Clearance;
+  return rule.isOfMachine ? geometry::SpaceClaim::Machine : geometry::SpaceClaim::Travel;
+}
+
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || kind == MoveKind::CutInBox || isArc(kind); }
 
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
-                         const SymbolicState &entry, const Dialect &dialect, TermId tolerance)
-    : store_(store), terms_(terms), contract_(contract), entry_(entry), dialect_(dialect), tolerance_(tolerance),
+                         const SymbolicState &entry, const Dialect &dialect, smt::Number tolerance)
+    : store_(store), terms_(terms), contract_(contract), entry_(entry), dialect_(dialect),
+      tolerance_(std::move(tolerance)), corner_(smt::Number::fromTyped(cornerOf(contract).toDouble())),
       space_(store, tip()) {
   if (!contract.lengths.empty())
     lengthInSpindle_ = terms.lengthInSpindle(contract, entry);
@@ -114,19 +55,20 @@ SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Cont
   if (contract.clearance)
     rules_.push_back({.kind = ObligationKind::Clearance,
                       .clause = contract.clearance->clause,
-                      .height = store_.subtract(number(contract.clearance->height.value), tolerance_)});
-  const auto limits = [&](ClauseId clause, const Box &sides) {
+                      .height = store_.add(number(contract.clearance->height.value),
+                                           store_.number(distanceOf(geometry::SpaceClaim::Clearance)))});
+  const auto limits = [&](geometry::SpaceClaim claim, ClauseId clause, const Box &sides) {
     const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}, diameters()}.sides(sides);
     rules_.push_back({.kind = ObligationKind::Travel,
                       .clause = clause,
-                      .spaces = {geometry::inside(
-                          store_, std::get<geometry::Box<TermId>>(shrunk(store_, box, store_.negate(tolerance_))))},
+                      .spaces = {geometry::inside(store_, std::get<geometry::Box<TermId>>(
+                                                              shrunk(store_, box, store_.number(distanceOf(claim)))))},
                       .isSound = geometry::isNotEmpty(store_, TermShape(box))});
   };
   if (contract.travel)
-    limits(contract.travel->clause, contract.travel->box);
+    limits(geometry::SpaceClaim::Travel, contract.travel->clause, contract.travel->box);
   if (contract.machine) {
-    limits(contract.machine->clause, contract.machine->box);
+    limits(geometry::SpaceClaim::Machine, contract.machine->clause, contract.machine->box);
     rules_.back().name = "MACHINE";
     rules_.back().isOfMachine = true;
   }
@@ -187,20 +129,31 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
     rule.isSound = geometry::isTool(store_, tool);
     for (const TermShape &part : parts)
       rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
-    rule.spaces = spacesWithin(store_, kind, tool, parts, tolerance_);
-    const bool hasDistances = std::none_of(parts.begin(), parts.end(), isCondition);
-    if (kind == ObligationKind::KeepOut || hasDistances)
-      rule.spacesFor = [this, tool, parts, kind](TermId margin) {
-        return kind == ObligationKind::KeepIn ? insideWithMargin(store_, tool, parts, margin)
-                                              : outsideWithMargin(store_, tool, parts, margin);
+    const auto spacesAt = [this, tool, parts, kind](const smt::Number &distance) {
+      return kind == ObligationKind::KeepIn ? insideAt(store_, tool, parts, distance)
+                                            : outsideAt(store_, tool, parts, distance);
+    };
+    rule.spaces = spacesAt(distanceOf(claimOf(rule)));
+    if (kind == ObligationKind::KeepOut || knowDistances(parts))
+      rule.spacesFor = [this, spacesAt](const smt::Number &margin) {
+        std::vector<FreeSpace> spaces = spacesAt(corner_ + margin);
+        for (FreeSpace &space : spaces)
+          space.beyond.clear(); // margins are found without
+        return spaces;
       };
     rules_.push_back(std::move(rule));
   }
 }
 
+/// Of the programmed path from what a clause says: the tool may be nearer by the one and pass it by the other.
+smt::Number SpaceClaims::distanceOf(geometry::SpaceClaim claim) const {
+  const bool isBesidePath = geometry::isOfToolBesidePath(claim);
+  return (isBesidePath ? corner_ : smt::Number(0)) - tolerance_;
+}
+
 SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
   SpaceRule wider = rule;
-  wider.spaces = rule.spacesFor(store_.number(smt::Number::fromTyped(margin)));
+  wider.spaces = rule.spacesFor(smt::Number::fromTyped(margin));
   return wider;
 }
 

@@ -20,11 +20,14 @@ struct SpaceRule {
   bool isOfMachine = false;                     // Travel: in machine coordinates
   std::vector<geometry::FreeSpace> spaces = {}; // the point of the tool is in all of them
   /// Of KeepIn and KeepOut: the same where the tool keeps so far away; empty where a region knows no distances.
-  std::function<std::vector<geometry::FreeSpace>(smt::TermId margin)> spacesFor = {};
+  std::function<std::vector<geometry::FreeSpace>(const smt::Number &margin)> spacesFor = {};
   std::optional<smt::TermId> height = {};  // of Clearance
   smt::TermId isSound = smt::TermId(1);    // without that the claim means nothing
   std::optional<std::string> missing = {}; // why it cannot be checked
 };
+
+/// What a run is asked of a rule.
+geometry::SpaceClaim claimOf(const SpaceRule &rule);
 
 /// It holds if one of its alternatives does: the cheap ones first, the exact one last.
 struct SpaceQuestion {
@@ -39,7 +42,7 @@ class SpaceClaims {
 public:
   /// `tolerance`: how far the tool may pass what a clause says.
   SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract, const SymbolicState &entry,
-              const Dialect &dialect, smt::TermId tolerance);
+              const Dialect &dialect, smt::Number tolerance);
 
   const std::vector<SpaceRule> &rules() const { return rules_; }
   bool concerns(const SpaceRule &rule, const MoveInstance &move) const;
@@ -69,6 +72,7 @@ private:
   std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
                                               const std::vector<geometry::TermPoint> &corners) const;
   static bool isOfProgrammed(const SpaceRule &rule);
+  smt::Number distanceOf(geometry::SpaceClaim claim) const;
   MoveInstance placed(const SpaceRule &rule, MoveInstance instance) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 
@@ -77,7 +81,8 @@ private:
   const Contract &contract_;
   const SymbolicState &entry_;
   const Dialect &dialect_;
-  smt::TermId tolerance_;
+  smt::Number tolerance_;
+  smt::Number corner_; // how far the tool may be from the programmed path
   TermSpace space_;
   std::vector<SpaceRule> rules_;
   std::optional<smt::TermId> lengthInSpindle_;

@@ -430,11 +430,13 @@ private:
 
 std::string drawPicture(const Picture &picture) { return Drawing(picture).draw(); }
 
-std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim claim, std::size_t region, double depth,
-                      LengthUnit unit, std::string_view place) {
-  const std::string number = depth < 1e-4 ? "less than 0.0001" : plainNumber(depth);
+std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim claim, std::size_t region,
+                      const geometry::Gouge &gouge, LengthUnit unit, std::string_view place) {
+  const std::string number = gouge.depth < 1e-4 ? "less than 0.0001" : plainNumber(gouge.depth);
+  const std::string beside =
+      gouge.beside > 0 ? fmt::format(", up to {} {} beside its path", plainNumber(gouge.beside), nameOf(unit)) : "";
   const auto text = [&](std::string_view where) {
-    return fmt::format("{} {} {} at {}", number, nameOf(unit), where, place);
+    return fmt::format("{} {} {} at {}{}", number, nameOf(unit), where, place, beside);
   };
   switch (claim) {
   case geometry::SpaceClaim::KeepIn: return text("outside " + space.keepIn[region].name);

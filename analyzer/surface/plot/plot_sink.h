@@ -37,7 +37,7 @@ struct Picture {
 std::string drawPicture(const Picture &picture);
 
 /// `0.25 mm outside of CAVITY at N40`; `place`: `N40`, `line 7`.
-std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim claim, std::size_t region, double depth,
-                      LengthUnit unit, std::string_view place);
+std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim claim, std::size_t region,
+                      const geometry::Gouge &gouge, LengthUnit unit, std::string_view place);
 
 } // namespace feedhold

@@ -63,7 +63,7 @@ Gouges gougesOf(const PicturedRun &run, const geometry::PlainSpace &space) {
     if (!gouge)
       return;
     const RecordedMove &move = run.result.moves[gouge->move];
-    std::string text = gougeText(space, claim, region, gouge->depth, move.unit, placeOf(run, move.place));
+    std::string text = gougeText(space, claim, region, *gouge, move.unit, placeOf(run, move.place));
     if (isByRounding(claim, region))
       gouges.byRounding.push_back(text + ", only because words are rounded to the least increment");
     else

@@ -70,8 +70,9 @@ constexpr std::array kAssumptions = {
         "the set-up sheet, the operator", "keep-in, keep-out, clearance, compensation"},
     Assumption{
         "The control keeps to the path",
-        "Corner rounding in cutting mode (G64), servo lag, thermal growth and deflection of tool and machine are not "
-        "part of the proof. Contracts must leave a margin for them.",
+        "Where the contract says @CORNER, the tool leaves the programmed path by no more than that; elsewhere corner "
+        "rounding in cutting mode (G64) and servo lag are not part of the proof. Nor are thermal growth and deflection "
+        "of tool and machine. Contracts must leave a margin for what is not.",
         "the author of the contract", kSpace},
 };
 

@@ -42,6 +42,8 @@ public:
                                               [](const Obligation &row) { return row.tolerance.has_value(); });
     if (inSpace != program_.proof.obligations.end())
       text_ += fmt::format("  claims about space hold within {}\n", decimalText(*inSpace->tolerance, kMarginDecimals));
+    if (const std::optional<Decimal> corner = roundedCorner())
+      text_ += fmt::format("  claims about space hold up to {} beside the programmed path\n", corner->toString());
     if (program_.proof.incomplete)
       text_ += fmt::format("  not all paths were explored: {}\n", *program_.proof.incomplete);
     text_ += '\n';
@@ -87,6 +89,18 @@ private:
         fix.title += fmt::format("\n    {}", block);
     }
     diagnostic.fixes.push_back(std::move(fix));
+  }
+
+  /// By how much the machine rounds corners, where a claim looks at it.
+  std::optional<Decimal> roundedCorner() const {
+    const Contract *contract = file_.file().contracts.of(program_.program);
+    const bool isLookedAt = std::ranges::any_of(program_.proof.obligations, [](const Obligation &row) {
+      return row.kind == prove::ObligationKind::KeepIn || row.kind == prove::ObligationKind::KeepOut ||
+             row.kind == prove::ObligationKind::Clearance;
+    });
+    if (contract == nullptr || !isLookedAt || cornerOf(*contract).isZero())
+      return std::nullopt;
+    return cornerOf(*contract);
   }
 
   std::vector<std::string> witnessNotes(const Obligation &obligation) const {

@@ -238,12 +238,14 @@ std::optional<std::pair<SpacePoint, SpacePoint>> seenOn(const PlainSpace &space,
                                                         const RecordedMove &move, double depth, Random &random) {
   const SpacePoint start = inSpace(move, move.move.start), end = inSpace(move, move.move.end);
   const bool goesAcross = std::hypot(start[0] - end[0], start[1] - end[1]) > depth;
-  if (claim == SpaceClaim::Clearance && goesAcross && std::min(start[2], end[2]) < *space.clearance - depth)
+  if (claim == SpaceClaim::Clearance && goesAcross &&
+      std::min(start[2], end[2]) - space.corner < *space.clearance - depth)
     return std::pair(start, end);
   for (int tip = 0; tip < kTips; ++tip) {
     const SpacePoint at = space.tip ? noseAt(space, anyTip(byRadius(move), random), claim) : anyTip(move, random);
-    if (const auto wrong = wrongPoint(space, claim, region, at, depth, random))
-      return std::pair(at, *wrong);
+    const SpacePoint beside = anyBeside(space, claim, at, random);
+    if (const auto wrong = wrongPoint(space, claim, region, beside, depth, random))
+      return std::pair(beside, *wrong);
   }
   return std::nullopt;
 }
@@ -290,6 +292,20 @@ std::optional<SpacePoint> wrongPoint(const PlainSpace &space, SpaceClaim claim, 
       return point;
   }
   return std::nullopt;
+}
+
+SpacePoint anyBeside(const PlainSpace &space, SpaceClaim claim, SpacePoint tip, Random &random) {
+  if (space.corner == 0 || (claim != SpaceClaim::KeepIn && claim != SpaceClaim::KeepOut))
+    return tip;
+  SpacePoint way;
+  do
+    for (double &coordinate : way)
+      coordinate = random.oneIn(3) ? 0 : 2 * fraction(random) - 1;
+  while (std::hypot(way[0], way[1], way[2]) == 0);
+  const double length = space.corner * share(random) / std::hypot(way[0], way[1], way[2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    tip[i] += length * way[i];
+  return tip;
 }
 
 SpacePoint toolAt(const PlainSpace &space, SpaceClaim claim, const SpacePoint &programmed) {

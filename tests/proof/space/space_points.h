@@ -26,6 +26,10 @@ std::optional<SeenGouge> seenGouge(const geometry::PlainSpace &space, geometry::
                                    std::span<const RecordedMove> moves, Place own, double depth,
                                    soundness::Random &random);
 
+/// Where the tool may be, up to PlainSpace::corner beside a place on its path.
+SpacePoint anyBeside(const geometry::PlainSpace &space, geometry::SpaceClaim claim, SpacePoint tip,
+                     soundness::Random &random);
+
 /// Of the tool as shapes see it, where the programmed point is here.
 SpacePoint toolAt(const geometry::PlainSpace &space, geometry::SpaceClaim claim, const SpacePoint &programmed);
 

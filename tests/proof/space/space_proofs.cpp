@@ -243,7 +243,8 @@ private:
   bool isSeen(const SpaceRun &run, const Clause &clause, const prove::GougeAt &gouge) {
     constexpr int kTries = 40;
     for (int i = 0; i < kTries; ++i)
-      if (wrongPoint(run.space, clause.claim, clause.region, toolAt(run.space, clause.claim, gouge.at), kRounding,
+      if (const SpacePoint at = toolAt(run.space, clause.claim, gouge.at);
+          wrongPoint(run.space, clause.claim, clause.region, anyBeside(run.space, clause.claim, at, random_), kRounding,
                      random_))
         return true;
     return false;
@@ -364,6 +365,9 @@ SpaceTally &SpaceTally::operator+=(const SpaceTally &other) {
 
 Sample withSpaceClauses(Sample program, Random &random) {
   constexpr int kRuns = 12;
+  if (random.oneIn(4))
+    program.lines.insert(program.lines.begin() + 1,
+                         "(@CORNER " + random.of<std::string>({"0", ".05", ".25", "1."}) + ")");
   const MillingSample loaded(program);
   if (!loaded.isRead())
     return program;

@@ -78,6 +78,12 @@ TEST(Contract, AToleranceIsTheOneThatIsStated) {
   EXPECT_EQ(toleranceOf("(@MODAL G90 G20)\n(@TOLERANCE .05)"), Decimal(5, 2));
 }
 
+TEST(Contract, CornersAreSharpUnlessAClauseSaysOtherwise) {
+  EXPECT_EQ(cornerOf(Contracts("O1\n(@REQUIRE #1 GT 0)\nG0X#1\nM99\n").first()), Decimal::fromInteger(0));
+  EXPECT_EQ(cornerOf(Contracts("O1\n(@CORNER 0)\nG0X#1\nM99\n").first()), Decimal::fromInteger(0));
+  EXPECT_EQ(cornerOf(Contracts("O1\n(@CORNER .05)\nG0X#1\nM99\n").first()), Decimal(5, 2));
+}
+
 TEST(Contract, WithinATolerance) {
   const auto isTrue = [](const std::string &condition) {
     const Contracts contracts("O1\n(@REQUIRE " + condition + ")\n#2=#1\nM99\n");

@@ -250,6 +250,48 @@ TEST(KeepOut, EmptyRegionsAndConditions) {
   EXPECT_GT(depthOut(keepOut(flat(5), {slope}), {feed({-30, 0, 0}, {-4, 0, 0})}), 0.5);
 }
 
+// ---- beside the path ----
+
+PlainSpace rounded(PlainSpace space, double corner) {
+  space.corner = corner;
+  return space;
+}
+
+TEST(Corner, TheToolMayBeBesideItsPath) {
+  EXPECT_NEAR(depthIn(rounded(keepIn(flat(6), {kPocket}), 0.5), {feed({0, 0, -10}, {44, 0, -10})}), 0.5, kNear);
+  EXPECT_EQ(depthIn(rounded(keepIn(flat(6), {kPocket}), 0.5), {feed({0, 0, -10}, {43.5, 0, -10})}), 0);
+  EXPECT_NEAR(depthIn(rounded(keepIn(flat(6), {kPocket}), 0.5), {feed({0, 0, 0}, {0, 0, -20})}), 0.5, kNear);
+  EXPECT_NEAR(marginIn(rounded(keepIn(flat(6), {kPocket}), 0.5), {feed({0, 0, -10}, {40, 21, -10})}), 2.5, kNear);
+  EXPECT_NEAR(depthOut(rounded(keepOut(flat(5), {kClamp}), 0.5), {feed({0, 17, 0}, {60, 17, 0})}), 0.5, kNear);
+  EXPECT_NEAR(marginOut(rounded(keepOut(flat(5), {kClamp}), 0.5), {rapid({0, 0, 43}, {60, 0, 43})}), 2.5, kNear);
+  const auto gouge = deepestGouge(rounded(keepIn(flat(6), {kPocket}), 0.5), SpaceClaim::KeepIn, 0,
+                                  std::vector{feed({0, 0, -10}, {44.25, 0, -10})});
+  ASSERT_TRUE(gouge);
+  expectPoint(gouge->at, {44.25, 0, -10});
+  EXPECT_EQ(gouge->beside, 0.5);
+}
+
+TEST(Corner, PastAnEdgeInTheDirectionOfTheEdge) {
+  const PlainShape block = box({0, 100}, {-100, 100}, {-50, 0});
+  // 3 beside the edge and 4 above it: 5 away, and a flat tool of 1 comes to 4.472.
+  EXPECT_EQ(depthOut(rounded(keepOut(flat(1), {block}), 4.4), {feed({-3, -9, 4}, {-3, 9, 4})}), 0);
+  EXPECT_NEAR(depthOut(rounded(keepOut(flat(1), {block}), 4.6), {feed({-3, -9, 4}, {-3, 9, 4})}),
+              4.6 - std::hypot(2, 4), kNear);
+}
+
+TEST(Corner, PartsAndConditionsByTrial) {
+  const PlainSpace halves = keepIn(flat(4), {box({0, 20}, {0, 10}, {-5, 5}), box({20, 40}, {0, 10}, {-5, 5})});
+  EXPECT_EQ(depthIn(rounded(halves, 0.75), {feed({5, 5, 0}, {35, 5, 0})}), 0);
+  EXPECT_NEAR(depthIn(rounded(halves, 1.5), {feed({5, 5, 0}, {35, 5, 0})}), 0.5, kNear);
+  const PlainShape round = Condition<double, bool>{
+      [](const Point<double> &point) { return std::hypot(point[0], point[1]) <= 50 && point[2] >= -5; }};
+  EXPECT_EQ(depthIn(rounded(keepIn(flat(4), {round}), 0.9), {feed({0, 0, 0}, {45, 0, -4})}), 0);
+  EXPECT_NEAR(depthIn(rounded(keepIn(flat(4), {round}), 1.25), {feed({0, 0, 0}, {45, 0, 0})}), 0.25, kNear);
+  const PlainShape slope =
+      Condition<double, bool>{[](const Point<double> &point) { return point[2] < point[0] && point[2] < 50; }};
+  EXPECT_GT(depthOut(rounded(keepOut(flat(5), {slope}), 1), {feed({-30, 0, 0}, {-5, 0, 0})}), 0.5);
+}
+
 // ---- clearance and travel ----
 
 double depthClear(const std::vector<RecordedMove> &moves) {
@@ -277,6 +319,18 @@ TEST(Clearance, BackIntoTheHole) {
       depthClear({peck, out, rapid({0, 0, 2}, {9, 0, 2}), rapid({9, 0, 2}, {0, 0, 2}), rapid({0, 0, 2}, {0, 0, -1})}),
       3, kNear);
   EXPECT_EQ(depthClear({feed({-9, 0, -1}, {0, 0, -4}), rapid({0, 0, -4}, {0, 0, 9}), rapid({0, 0, 9}, {0, 0, -4})}), 0);
+}
+
+TEST(Corner, ClearanceAndNotTravel) {
+  PlainSpace space{
+      .tool = flat(5), .keepIn = {}, .keepOut = {}, .clearance = 2, .travel = Box<double>{}, .corner = 0.5};
+  space.travel->sides = {Interval<double>{-10, 10}, {}, {}};
+  const std::vector across{rapid({-10, 0, 2.25}, {10, 0, 2.25})};
+  const auto low = deepestGouge(space, SpaceClaim::Clearance, 0, across);
+  ASSERT_TRUE(low);
+  EXPECT_NEAR(low->depth, 0.25, kNear);
+  EXPECT_FALSE(deepestGouge(space, SpaceClaim::Clearance, 0, std::vector{rapid({0, 0, 1}, {0, 0, 9})})); // straight up
+  EXPECT_FALSE(deepestGouge(space, SpaceClaim::Travel, 0, across));
 }
 
 TEST(Travel, PointOfTheTool) {

@@ -33,13 +33,17 @@ TEST(GougeText, OfEachClaim) {
   using geometry::SpaceClaim;
   const geometry::PlainSpace space{
       .tool = {}, .keepIn = {{"CAVITY", {}}}, .keepOut = {{"RIB", {}}, {"CLAMP", {}}}, .clearance = {}, .travel = {}};
-  EXPECT_EQ(gougeText(space, SpaceClaim::KeepIn, 0, 0.25, LengthUnit::Millimetre, "N40"),
+  const auto deep = [](double depth) { return geometry::Gouge{0, {0, 0, 0}, depth}; };
+  EXPECT_EQ(gougeText(space, SpaceClaim::KeepIn, 0, deep(0.25), LengthUnit::Millimetre, "N40"),
             "0.25 mm outside CAVITY at N40");
-  EXPECT_EQ(gougeText(space, SpaceClaim::KeepOut, 1, 12, LengthUnit::Inch, "line 7"), "12 in inside CLAMP at line 7");
-  EXPECT_EQ(gougeText(space, SpaceClaim::Clearance, 0, 1.0 / 3, LengthUnit::Millimetre, "N1"),
+  EXPECT_EQ(gougeText(space, SpaceClaim::KeepOut, 1, deep(12), LengthUnit::Inch, "line 7"),
+            "12 in inside CLAMP at line 7");
+  EXPECT_EQ(gougeText(space, SpaceClaim::Clearance, 0, deep(1.0 / 3), LengthUnit::Millimetre, "N1"),
             "0.3333 mm below the clearance height in a rapid move at N1");
-  EXPECT_EQ(gougeText(space, SpaceClaim::Travel, 0, 1e-6, LengthUnit::Millimetre, "N1"),
+  EXPECT_EQ(gougeText(space, SpaceClaim::Travel, 0, deep(1e-6), LengthUnit::Millimetre, "N1"),
             "less than 0.0001 mm outside the travel limits at N1");
+  EXPECT_EQ(gougeText(space, SpaceClaim::KeepIn, 0, {0, {0, 0, 0}, 0.25, {}, 0.05}, LengthUnit::Millimetre, "N40"),
+            "0.25 mm outside CAVITY at N40, up to 0.05 mm beside its path");
 }
 
 TEST(Picture, TextOfProgramsIsNoMarkup) {
