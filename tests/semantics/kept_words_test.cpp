@@ -33,7 +33,7 @@ const std::vector<Case> kCases = {
     {"Skip", "G16\nG0X10.Y90.\nG31X20.Y90.\nY0"},
     {"LocalZero", "G16\nG0X10.Y90.\nG52X5.\nY0"},
     {"ZeroOfSystem", "G16\nG0X10.Y90.\n#5221=#5221+3\nY0"},
-    {"OtherSystem", "G16\nG0X10.Y90.\nG55\nY0"},
+    {"OtherSystem", "#5241=#5221+5\nG16\nG0X10.Y90.\nG55\nY0"},
     {"SetCoordinate", "G16\nG0X10.Y90.\nG92X1.\nY0"},
     {"OffAndOn", "G16\nG0X10.Y90.\nG15\nG16\nY0"},
     {"OtherPlane", "G16\nG0X10.Y90.\nG18\nG17\nY0"},
@@ -75,8 +75,7 @@ TEST_P(KeptWords, LeadWhereTheManualsSay) {
     EXPECT_NEAR(result.state.variables.find(variable)->number, (*end)[i], 1e-6);
     const auto range = sample.valueBefore("N9", variable);
     ASSERT_TRUE(range);
-    EXPECT_TRUE(range->number().contains((*end)[i]) ||
-                range->number().contains(result.state.variables.find(variable)->number));
+    EXPECT_TRUE(range->number().contains(result.state.variables.find(variable)->number));
   }
   const auto verdict = sample.userAlarm();
   EXPECT_TRUE(!verdict || holds(*verdict));
@@ -93,9 +92,10 @@ TEST_P(KeptWords, ProveNothingElsewhere) {
     ASSERT_TRUE(verdict);
     EXPECT_FALSE(holds(*verdict));
     EXPECT_FALSE(verdict->kind() == prove::Verdict::Refuted);
-    for (const std::uint32_t variable : {101U, 102U})
-      if (const auto range = sample.valueBefore("N9", variable))
-        EXPECT_TRUE(range->number().contains(7.25) || range->number().contains(variable == 101 ? x : y));
+    for (const std::uint32_t variable : {101U, 102U}) {
+      const auto range = sample.valueBefore("N9", variable); // behind a test that holds near the place
+      EXPECT_TRUE(!range || range->number().contains(variable == 101 ? x : y));
+    }
   }
 }
 
