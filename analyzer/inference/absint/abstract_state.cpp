@@ -224,6 +224,8 @@ void forgetMovement(AbstractInterpretation &interpretation, AbstractState &state
   auto &cycle = state.cycle; // Z and R are levels of a canned cycle, X and Z those of a turning cycle
   for (AbstractValue *level : {&cycle.bottom, &cycle.retract, &cycle.initial, &cycle.peck, &cycle.dwell})
     *level = interpretation.either(*level, interpretation.anything());
+  for (AbstractValue *kept : {&state.kept.first, &state.kept.second})
+    *kept = interpretation.either(*kept, interpretation.anything());
   for (AbstractValue &pending : state.transform.pending)
     if (pending.mayBeNumber())
       pending = interpretation.select(interpretation.isVacant(pending), pending,

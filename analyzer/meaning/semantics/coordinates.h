@@ -35,6 +35,14 @@ template <ValueAlgebra R> void forgetCycle(StepContext<R> &context) {
     *level = context.interpretation.either(*level, context.interpretation.anything());
 }
 
+/// What a block leaves out may be anything, or nothing is kept for it any more (kept_words.h); so in a run.
+template <ValueAlgebra R> void forgetKeptWords(StepContext<R> &context) {
+  R &interpretation = context.interpretation;
+  for (auto *kept : {&context.state.kept.first, &context.state.kept.second})
+    if (!context.certain(interpretation.isVacant(*kept)))
+      *kept = interpretation.either(interpretation.vacant(), interpretation.anything());
+}
+
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void havocPosition(StepContext<R> &context);
 
@@ -258,6 +266,8 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
     coordinate = interpretation.select(isNone, coordinate, interpretation.select(stays, moved, coordinate));
   };
   const std::optional<Plane> plane = planeOf(context);
+  if (!plane || axis == plane->first || axis == plane->second)
+    forgetKeptWords(context);
   if (interpretation.mayBe(state.transformed)) {
     keep(state.transform.scaleCentre[i]);
     keep(state.transform.mirrorAt[i]);
@@ -284,6 +294,7 @@ template <ValueAlgebra R> void havocPosition(StepContext<R> &context) {
     context.interpretation.losePosition();
   for (auto &coordinate : context.state.position)
     coordinate = context.interpretation.either(coordinate, context.interpretation.anyNumber());
+  forgetKeptWords(context);
   for (const Axis axis : kAllAxes)
     if (detail::isPending(context, axis))
       detail::havocPending(context, axis);

@@ -202,6 +202,7 @@ private:
       for (const Axis axis : {plane_.first, plane_.second})
         if (words_.find(letterOf(axis)) || interpretation_.mayBe(state_.transformed))
           state_.at(axis) = interpretation_.anyNumber();
+      forgetKeptWords(context_);
       tell(context_, MoveKind::Unmodelled, first);
     }
     interpretation_.join(state_, interpretation_.unknownTruth(), notDrilled);
@@ -240,10 +241,12 @@ private:
 
   void drill() {
     const Point start = state_.position;
-    Point target = targetOf(context_, words_);
-    target[indexOf(plane_.normal)] = travelLevel();
-    state_.position = target;
+    Ends<R> ends = endsOf(context_, words_);
+    ends.work[indexOf(plane_.normal)] = travelLevel();
+    goTo(context_, words_, ends);
     tell(context_, isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Rapid, start);
+    if (const auto inForce = planeOf(context_); !inForce || inForce->normal != plane_.normal)
+      forgetKeptWords(context_); // the axis of the hole is one of the plane
     const Kind kind = interpretation_.wantsMoves() ? kindOf() : Kind::Straight;
     if (kind == Kind::NotFollowed) {
       interpretation_.unmodelled("the tool path of this boring cycle", context_.place());

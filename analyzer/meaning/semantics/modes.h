@@ -57,6 +57,7 @@ private:
       expectAbsolute(programmed, context_.either(mapped, state_.transformed));
     }
     otherPlane(planeBefore);
+    forgetKeptAtCodes(context_, words_, planeBefore);
   }
 
   void enter(const CodeWord &word) {
@@ -425,8 +426,9 @@ private:
                   "a change of mirroring during scaling or rotation");
     if (words_.has(CodeAction::ScalingOn) || words_.has(CodeAction::ScalingOff))
       notFollowed(stillTurned, "a change of scaling during rotation");
-    state_.transformed =
-        context_.either(context_.either(isTurned(), isScaled()), context_.either(isMirrored(), isOther()));
+    const Truth isRotation = interpretation_.truth(words_.has(CodeAction::RotationOn)); // by 0 as well: kept_words.h
+    state_.transformed = context_.either(context_.either(context_.either(isTurned(), isRotation), isScaled()),
+                                         context_.either(isMirrored(), isOther()));
   }
   void otherPlane(const std::optional<Plane> &before) {
     if (!interpretation_.mayBe(state_.transformed) || !namesPlane())

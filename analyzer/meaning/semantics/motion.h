@@ -35,8 +35,11 @@ public:
       loseCorner(context_,
                  ownWords() || !interpretation_.mayBe(axisWords()) ? CornerLost::Surely : CornerLost::Perhaps);
     const bool others = namesOtherAxes();
-    const Point before = others ? state_.position : Point{};
+    const bool keepsPlace = keepsWords(context_) && !leadsInPlane();
+    const Point before = others || keepsPlace ? state_.position : Point{};
     act();
+    if (keepsPlace)
+      forgetKeptIfMoved(context_, before);
     if (const CodeWord *word = ownWords(); !word || isMovement(*word->code))
       settlePending(context_, words_);
     if ((!words_.entries.empty() || ownWords()) && interpretation_.mayBe(otherGeometry(context_))) {
@@ -53,6 +56,11 @@ public:
   }
 
 private:
+  /// goTo says what is kept behind the movement of the block.
+  bool leadsInPlane() {
+    const std::optional<Plane> plane = planeOf(context_);
+    return plane && !ownWords() && namesPlane(words_, *plane);
+  }
   static bool isMovement(const Code &code) {
     constexpr std::array kMovements = {CodeAction::MachineMove, CodeAction::ReferenceReturn,
                                        CodeAction::SecondReference, CodeAction::ReferenceCheck, CodeAction::Skip};
@@ -123,6 +131,7 @@ private:
     auto &cycle = state_.cycle; // some controls may not take them over
     cycle.bottom = interpretation_.either(cycle.bottom, before.bottom);
     cycle.retract = interpretation_.either(cycle.retract, before.retract);
+    forgetKeptWords(context_);
     const std::optional<Plane> plane = planeOf(context_);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) // along whichever the cycle drills
       if (!plane || plane->normal == axis || axis == Axis::Z)
@@ -226,6 +235,7 @@ private:
   }
   /// A cycle of a lathe ends where it starts.
   void turningCycle(CodeAction action, std::string_view what, Span place) {
+    forgetKeptWords(context_);
     if (runTurningCycle(context_, words_, action))
       return;
     for (const Axis axis : kAllAxes)
@@ -292,7 +302,7 @@ private:
       return unmodelledCycle("a repeated turning cycle", context_.place());
     }
     const Point start = state_.position;
-    state_.position = targetOf(context_, words_);
+    goTo(context_, words_, endsOf(context_, words_));
     placeAxes();
     if (hasCommaWord("A")) {
       interpretation_.unmodelled("a coordinate given by an angle", context_.place());
@@ -310,6 +320,7 @@ private:
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
     forgetCycle(context_);
+    forgetKeptWords(context_);
   }
   // ---- corners (corners.h) ----
 

@@ -42,6 +42,8 @@ enum class Part : std::uint8_t {
   CornerChamfer,
   CornerRadius,
   CornerStart,
+  KeptFirst,
+  KeptSecond,
   Transformed,
   Spindle,
   ModalCallRepeats,
@@ -119,6 +121,8 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
   case Part::LengthChanged:
   case Part::AxisTurned: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
+  case Part::KeptFirst: // like the modes that it belongs to, it is not left behind where there was none
+  case Part::KeptSecond:
   case Part::PendingCoordinate: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Pending, PartNeutral::Vacant};
   case Part::Transformed: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::No};
   case Part::ModalCallRepeats: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::One};
@@ -204,13 +208,13 @@ template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
     auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
-           cycle, transform, corner, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters,
+           cycle, transform, corner, kept, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters,
            savedCodes, savedWords, restoresModes] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(havocked), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
         is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
-        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), nested(corner),
+        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), nested(corner), nested(kept),
         is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
         is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters),
         is<Part::SavedCode>(savedCodes), is<Part::SavedWord>(savedWords), is<Part::RestoresModes>(restoresModes));
@@ -226,6 +230,9 @@ template <typename Struct> auto membersOf(Struct &whole) {
   } else if constexpr (kIsA<S, CornerState>) {
     auto &[chamfer, radius, start] = whole;
     return std::tuple(is<Part::CornerChamfer>(chamfer), is<Part::CornerRadius>(radius), is<Part::CornerStart>(start));
+  } else if constexpr (kIsA<S, KeptWords>) {
+    auto &[first, second] = whole;
+    return std::tuple(is<Part::KeptFirst>(first), is<Part::KeptSecond>(second));
   } else {
     static_assert(kIsA<S, ModalCallState>, "a struct of the state without a list of its members");
     auto &[file, call, repeats, locals] = whole;

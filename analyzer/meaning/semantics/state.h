@@ -95,6 +95,14 @@ template <typename Value> struct TransformState {
   friend bool operator==(const TransformState &, const TransformState &) = default;
 };
 
+/// What a block may leave out of the two axes of the plane (kept_words.h): the coordinates before the mappings, under
+/// G16 a radius above 0 and an angle.  Vacant: that is not known, or nothing of the kind is in force.
+template <typename Value> struct KeptWords {
+  Value first;
+  Value second;
+  friend bool operator==(const KeptWords &, const KeptWords &) = default;
+};
+
 /// A line with `,C` or `,R` that waits for the next one (corners.h).
 template <typename Value> struct CornerState {
   Value chamfer; // one of the two; vacant: the other, or no line waits
@@ -143,6 +151,7 @@ template <typename R> struct MachineState {
   CycleState<Value> cycle;
   TransformState<Value> transform;
   CornerState<Value> corner;
+  KeptWords<Value> kept;
   Truth transformed;                             // a mapping beside those at the start of the run is or may be in force
   ModalCode spindle;                             // index into kSpindleActions
   std::vector<ModalCallState<Value>> modalCalls; // innermost last

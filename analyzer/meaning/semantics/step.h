@@ -125,7 +125,11 @@ void executeWords(StepContext<R> &context, const ExecuteWords &execute, Executed
     context.interpretation.unlistedCode(context.state, code, span);
   if (!words.unlisted.empty())
     return;
+  const bool keeps = keepsWords(context);
+  const auto before = keeps ? context.state.position : std::array<typename R::Value, kAxisCount>{};
   applyModes(context, words);
+  if (keeps)
+    forgetKeptIfMoved(context, before); // lengths in other units, a tool length
   if (const std::string_view why = whyInterpreterStops(context, words); !why.empty())
     context.interpretation.havoc(context.state, why, context.place());
   applyMotion(context, words);

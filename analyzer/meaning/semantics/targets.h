@@ -1,7 +1,7 @@
 // Targets: where the axis words of a block point to, under G90 and G91, polar coordinates and the mappings in force.
 #pragma once
 
-#include "meaning/semantics/executed_words.h"
+#include "meaning/semantics/polar.h"
 
 #include <algorithm>
 
@@ -22,11 +22,21 @@ template <ValueAlgebra R> bool namesIncrements(const StepContext<R> &context, co
          std::ranges::any_of(kTurningIncrements, [&](const auto &each) { return words.find(each.first) != nullptr; });
 }
 
-/// The end point that the axis words name, in work coordinates; axes without a word stay where they are.
+/// The end point that the axis words name; axes without a word stay where they are.
+template <typename R> struct Ends {
+  std::array<typename R::Value, kAxisCount> work;
+  KeptWords<typename R::Value> programmed; // in the plane, before the mappings; vacant: without one
+};
+template <ValueAlgebra R> Ends<R> endsOf(StepContext<R> &context, const ExecutedWords<R> &words);
+/// The same, in work coordinates.
 template <ValueAlgebra R>
-std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);
+std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
+  return endsOf(context, words).work;
+}
+/// The movement that the words of the block say has come to its end.
+template <ValueAlgebra R> void goTo(StepContext<R> &context, const ExecutedWords<R> &words, const Ends<R> &ends);
 
-/// Where the words lead is not followed: polar coordinates of which one is not written, or incremental ones; distances
+/// Where the words lead is not followed: polar coordinates that say too little (polar.h); distances
 /// from a place where the control does not take the tool to be; an absolute and an incremental word of one axis.
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words);
 
@@ -55,56 +65,6 @@ typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords
                            const typename R::Value &from);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
-
-namespace detail {
-
-template <ValueAlgebra R> typename R::Truth isAbsolute(StepContext<R> &context) {
-  return context.inForce(ModalKind::Distance, {CodeAction::Absolute}, context.interpretation.truth(true));
-}
-
-template <ValueAlgebra R> typename R::Truth isPolar(StepContext<R> &context) {
-  return context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, context.interpretation.truth(false));
-}
-
-/// Polar coordinates of which one is not written, or incremental ones: where they lead is not followed.
-template <ValueAlgebra R> bool isOpenPolar(StepContext<R> &context, const ExecutedWords<R> &words) {
-  const auto polar = isPolar(context);
-  const std::optional<Plane> plane = planeOf(context);
-  if (!context.interpretation.mayBe(polar) || !plane)
-    return context.interpretation.mayBe(polar);
-  const bool radius = words.find(letterOf(plane->first));
-  const bool angle = words.find(letterOf(plane->second));
-  const bool isKnown = radius && angle && context.certain(isAbsolute(context)) && context.certain(polar);
-  return (radius || angle) && !isKnown;
-}
-
-/// G16: the first axis of the plane is a radius, the second an angle, about the zero point of the program.
-template <ValueAlgebra R>
-void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
-               std::array<typename R::Value, kAxisCount> &target) {
-  R &interpretation = context.interpretation;
-  if (!interpretation.mayBe(isPolar(context)))
-    return;
-  const std::optional<Plane> plane = planeOf(context);
-  if (!plane) {
-    target.fill(interpretation.anyNumber());
-    return;
-  }
-  const auto *radius = words.find(letterOf(plane->first));
-  const auto *angle = words.find(letterOf(plane->second));
-  auto &first = target[indexOf(plane->first)];
-  auto &second = target[indexOf(plane->second)];
-  if (!radius && !angle)
-    return;
-  if (isOpenPolar(context, words)) {
-    first = second = interpretation.anyNumber();
-    return interpretation.unmodelled("polar coordinates with only one word, or in G91", context.place());
-  }
-  first = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Cos, angle->value));
-  second = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Sin, angle->value));
-}
-
-} // namespace detail
 
 template <ValueAlgebra R>
 typename R::Value distanceWord(StepContext<R> &context, const ExecutedWords<R> &words, char letter) {
@@ -256,17 +216,53 @@ template <ValueAlgebra R> bool areDistances(StepContext<R> &context) {
          !context.interpretation.mayBe(isPolar(context));
 }
 
+/// What is kept of the axes of the plane, in place of what the position says.
+template <ValueAlgebra R>
+void takeKept(StepContext<R> &context, const Plane &plane, std::array<typename R::Value, kAxisCount> &programmed) {
+  R &interpretation = context.interpretation;
+  const auto &[first, second] = context.state.kept;
+  for (const auto &[axis, kept] : {std::pair{plane.first, &first}, std::pair{plane.second, &second}}) {
+    auto &coordinate = programmed[indexOf(axis)];
+    coordinate = interpretation.select(interpretation.isVacant(*kept), coordinate, interpretation.asNumber(*kept));
+  }
+}
+
+/// Of a position under a mapping: before it.
+template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> programmedPosition(StepContext<R> &context) {
+  auto programmed = toProgrammed(context, context.state.position);
+  const std::optional<Plane> plane = planeOf(context);
+  if (plane && keepsWords(context) && !context.interpretation.mayBe(isPolar(context)))
+    takeKept(context, *plane, programmed);
+  return programmed;
+}
+
+/// Under G91 and a mapping: the distances are added to what is kept.
+template <ValueAlgebra R> Ends<R> incrementedEnds(StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &interpretation = context.interpretation;
+  const auto &kept = context.state.kept;
+  Ends<R> ends{mappedIncrement(context, words), {interpretation.vacant(), interpretation.vacant()}};
+  const std::optional<Plane> plane = planeOf(context);
+  if (!plane || !keepsWords(context) || isOpenTarget(context, words))
+    return ends;
+  const auto added = [&](Axis axis, const typename R::Value &from) {
+    const auto sum = interpretation.add(interpretation.asNumber(from), distanceWord(context, words, letterOf(axis)));
+    return interpretation.select(interpretation.isVacant(from), interpretation.vacant(), sum);
+  };
+  ends.programmed = {added(plane->first, kept.first), added(plane->second, kept.second)};
+  return ends;
+}
+
 } // namespace detail
 
-template <ValueAlgebra R>
-std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
+template <ValueAlgebra R> Ends<R> endsOf(StepContext<R> &context, const ExecutedWords<R> &words) {
   R &interpretation = context.interpretation;
   const bool isMapped = interpretation.mayBe(context.state.transformed);
   if (isMapped && detail::areDistances(context))
-    return detail::mappedIncrement(context, words);
-  auto target = context.state.position;
+    return detail::incrementedEnds(context, words);
+  Ends<R> ends{context.state.position, {interpretation.vacant(), interpretation.vacant()}};
+  auto &target = ends.work;
   if (isMapped)
-    target = toProgrammed(context, std::move(target));
+    target = detail::programmedPosition(context);
   const bool byLetter = incrementsByLetter(context);
   for (const Axis axis : kAllAxes)
     if (const auto *entry = words.find(letterOf(axis)))
@@ -281,16 +277,38 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
         coordinate = interpretation.select(entry->present, interpretation.add(coordinate, entry->value), coordinate);
         coordinate = detail::openedTwice(context, words, *entry, axis, coordinate);
       }
-  detail::fromPolar(context, words, target);
-  if (isMapped)
-    target = toWork(context, std::move(target));
-  if (isMapped && !byLetter)
+  fromPolar(context, words, target);
+  if (!isMapped)
+    return ends;
+  if (const std::optional<Plane> plane = planeOf(context))
+    ends.programmed = {target[indexOf(plane->first)], target[indexOf(plane->second)]};
+  target = toWork(context, std::move(target));
+  if (!byLetter)
     detail::keepUnnamed(context, words, target, taken);
-  return target;
+  return ends;
+}
+
+template <ValueAlgebra R> void goTo(StepContext<R> &context, const ExecutedWords<R> &words, const Ends<R> &ends) {
+  R &interpretation = context.interpretation;
+  context.state.position = ends.work;
+  const std::optional<Plane> plane = planeOf(context);
+  if (!plane)
+    return forgetKeptWords(context);
+  if (!namesPlane(words, *plane))
+    return;
+  if (interpretation.mayBe(detail::isPolar(context)))
+    return keepPolar(context, words, *plane);
+  forgetKeptWords(context);
+  const auto mapped = context.state.transformed;
+  if (!interpretation.mayBe(mapped) || isOpenTarget(context, words))
+    return;
+  const auto &[first, second] = ends.programmed;
+  context.state.kept = {interpretation.select(mapped, first, interpretation.vacant()),
+                        interpretation.select(mapped, second, interpretation.vacant())};
 }
 
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words) {
-  return detail::isOpenPolar(context, words) || detail::mayNameTwice(context, words) ||
+  return isOpenPolar(context, words) || detail::mayNameTwice(context, words) ||
          std::any_of(kAllAxes.begin(), kAllAxes.end(), [&](Axis axis) {
            const auto open = detail::isOpenIncrement(context, axis);
            return context.interpretation.mayBe(open) && context.interpretation.mayBe(context.interpretation.both(

@@ -38,6 +38,8 @@ std::string nameOfPart(PartId id) {
   case Part::OtherMapping:
   case Part::PendingCoordinate:
   case Part::Transformed: return "mirror, scaling and rotation";
+  case Part::KeptFirst:
+  case Part::KeptSecond: return "polar coordinates";
   case Part::ModalCallRepeats:
   case Part::ModalCallLocal:
   case Part::OtherModalCalls: return "the modal call";
@@ -77,6 +79,8 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
     return unless(ModalKind::Cycle, CodeAction::CycleOff);
   if (id.part == Part::LengthOffset)
     return unless(ModalKind::Length, CodeAction::LengthOff);
+  if (id.part == Part::KeptFirst || id.part == Part::KeptSecond)
+    return unless(ModalKind::Polar, CodeAction::PolarOff);
   const bool isCentre = id.part == Part::ScaleCentre || id.part == Part::RotationCentre;
   return isCentre ? store.no() : store.yes(); // an active mapping shows in its scale and its angle
 }
