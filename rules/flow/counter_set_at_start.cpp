@@ -63,13 +63,17 @@ bool isLastUse(const FlowFacts &facts, const Count &count, NodeId from) {
   return true;
 }
 
-/// Some other program of the run reads it, or some program a variable whose number it computes.
+/// Some other program of the run reads it, or this one a variable whose number it computes.
 bool isSeenElsewhere(const FlowFacts &facts, std::uint32_t variable) {
-  const auto uses = facts.file.model->variablesOf(facts.program);
-  const auto own = std::ranges::count_if(uses, [&](const VariableUse &use) {
-    return !use.write && use.number == variable && facts.file.model->programOf(use.block) == facts.program;
-  });
-  return facts.programs.unnumberedUses().hasIndirect || facts.programs.usesOf(variable).reads > own;
+  std::uint32_t own = 0;
+  for (const VariableUse &use : facts.file.model->variablesOf(facts.program)) {
+    if (use.write || facts.file.model->programOf(use.block) != facts.program)
+      continue;
+    if (!use.number)
+      return true;
+    own += *use.number == variable ? 1 : 0;
+  }
+  return facts.programs.usesOf(variable).reads > own;
 }
 
 /// The assignment of a number that the program comes to before the count.
