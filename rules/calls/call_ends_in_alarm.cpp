@@ -27,9 +27,8 @@ bool worksAt(const ProgramFile &file, const Node &node) {
       return std::string_view("XYZABCUVW").find(word.address()) != std::string_view::npos;
     });
   const auto uses = file.model->variablesIn(node.block, node.block.next());
-  return std::ranges::any_of(uses, [&](const VariableUse &use) {
-    return use.write && (!use.number || !isLocal(file, *use.number));
-  });
+  return std::ranges::any_of(
+      uses, [&](const VariableUse &use) { return use.write && (!use.number || !isLocal(file, *use.number)); });
 }
 
 WaysThrough waysThrough(const ProgramFile &file, ProgramId program) {

@@ -217,10 +217,11 @@ bool isProgramNumber(const SyntaxIssue &issue, const FileContext &context) {
 
 void reportProgramNumber(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   const Span digit{issue.span.begin, issue.span.begin + 1};
-  reporter.report({.message = fmt::format("{} has the digit 0 in the place of the letter O", context.quoted(issue.span)),
-                   .span = issue.span,
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
-                   .fixes = {{.title = "write the letter O", .edits = {{digit, "O"}}}}});
+  reporter.report(
+      {.message = fmt::format("{} has the digit 0 in the place of the letter O", context.quoted(issue.span)),
+       .span = issue.span,
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+       .fixes = {{.title = "write the letter O", .edits = {{digit, "O"}}}}});
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {

@@ -26,9 +26,9 @@ std::optional<Count> countAt(const FlowFacts &facts, const FileContext &context,
     if (!target || isLocal(facts.file, *target) || roleOf(context, *target) != VariableRole::Plain ||
         variableOf(facts, read) != target || !literalValue(context.tree, sum->right))
       continue;
-    return Count{*target, cover(context.tree.expressions[assignment.target].span,
-                                context.tree.expressions[assignment.value].span),
-                 read};
+    return Count{
+        *target,
+        cover(context.tree.expressions[assignment.target].span, context.tree.expressions[assignment.value].span), read};
   }
   return std::nullopt;
 }
@@ -48,9 +48,8 @@ bool isLastUse(const FlowFacts &facts, const Count &count, NodeId from) {
       seen[index] = true;
       const Node &node = facts.node(next);
       const auto uses = facts.file.model->variablesIn(node.block, node.block.next());
-      const bool reads = std::ranges::any_of(uses, [&](const VariableUse &use) {
-        return !use.number || *use.number == count.variable;
-      });
+      const bool reads = std::ranges::any_of(
+          uses, [&](const VariableUse &use) { return !use.number || *use.number == count.variable; });
       const bool calls = std::holds_alternative<CallProgram>(node.instruction) ||
                          std::holds_alternative<Havoc>(node.instruction) ||
                          std::holds_alternative<HavocVariables>(node.instruction);
@@ -82,8 +81,8 @@ std::optional<Span> startOf(const FlowFacts &facts, const FileContext &context, 
   for (NodeId node = facts.entry(); node < before; node = node.next())
     for (const Assignment &assignment : assignmentsOf(facts, node))
       if (variableOf(facts, assignment.target) == count.variable && literalValue(context.tree, assignment.value))
-        found = cover(context.tree.expressions[assignment.target].span,
-                      context.tree.expressions[assignment.value].span);
+        found =
+            cover(context.tree.expressions[assignment.target].span, context.tree.expressions[assignment.value].span);
   return found;
 }
 

@@ -72,7 +72,8 @@ std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const Left
                                    const FlowFacts &facts) {
   const std::set<std::uint8_t> switches = skipSwitchesOf(view, from);
   const auto sets = [&](NodeId node) {
-    return decides(mode, view, node) || isSkippedTogether(node, switches, mode, view) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
+    return decides(mode, view, node) || isSkippedTogether(node, switches, mode, view) ||
+           (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
            (isHavocked(exit.state) && mayPutRightUnseen(view, node));
   };
   auto path = findPath(facts, from, exit.node, sets);
