@@ -7,6 +7,8 @@
 
 #include "meaning/semantics/targets.h"
 
+#include <utility>
+
 namespace feedhold {
 
 inline constexpr std::initializer_list<CodeAction> kDrillingCycles = {
@@ -99,8 +101,8 @@ public:
     const std::optional<double> repeats = repeatCount();
     if (!repeats)
       return drillUnknownTimes();
-    if (*repeats < 0.5)
-      return; // K0 only stores the data
+    if (*repeats < 0.5) // K0 only stores the data
+      return forgetUndrilled();
     clearFirst();
     for (double done = 0; done + 0.5 < *repeats; ++done)
       drill();
@@ -195,17 +197,25 @@ private:
     return literal;
   }
   void drillUnknownTimes() {
-    const auto notDrilled = state_;
+    const auto before = state_;
+    forgetUndrilled();
+    const auto notDrilled = std::exchange(state_, before);
     drill();
     if (!context_.certain(isAbsolute(context_))) {
       const Point first = state_.position;
       for (const Axis axis : {plane_.first, plane_.second})
-        if (words_.find(letterOf(axis)) || interpretation_.mayBe(state_.transformed))
+        if (mayMove(context_, words_, axis))
           state_.at(axis) = interpretation_.anyNumber();
       forgetKeptWords(context_);
       tell(context_, MoveKind::Unmodelled, first);
     }
     interpretation_.join(state_, interpretation_.unknownTruth(), notDrilled);
+  }
+
+  /// The words led nowhere: the next block may take what it leaves out from them, or from where the tool is.
+  void forgetUndrilled() {
+    if (namesPlane(words_, plane_))
+      forgetKeptWords(context_);
   }
 
   const Value &retractLevel() const { return retract_; }

@@ -31,9 +31,10 @@ void forgetKeptAtCodes(StepContext<R> &context, const ExecutedWords<R> &words, c
     return;
   const std::optional<Plane> now = planeOf(context);
   const bool isSamePlane = now && before && now->normal == before->normal;
-  constexpr std::array kForgetting = {CodeAction::PolarOn,    CodeAction::PolarOff,   CodeAction::ScalingOn,
-                                      CodeAction::ScalingOff, CodeAction::MirrorOn,   CodeAction::MirrorOff,
-                                      CodeAction::RotationOn, CodeAction::RotationOff};
+  constexpr std::array kForgetting = {CodeAction::PolarOn,    CodeAction::PolarOff,    CodeAction::ScalingOn,
+                                      CodeAction::ScalingOff, CodeAction::MirrorOn,    CodeAction::MirrorOff,
+                                      CodeAction::RotationOn, CodeAction::RotationOff, CodeAction::Inch,
+                                      CodeAction::Metric}; // 0 is 0 in both units, what is kept is not
   if (!isSamePlane || !words.computed.empty() ||
       std::ranges::any_of(kForgetting, [&](CodeAction action) { return words.has(action); }))
     forgetKeptWords(context);
@@ -62,5 +63,17 @@ template <ValueAlgebra R> typename R::Truth isPolar(StepContext<R> &context) {
 }
 
 } // namespace detail
+
+/// The words of the block may move the axis: it has one, or belongs to a plane of which the words say more than where
+/// their own axes go.
+template <ValueAlgebra R> bool mayMove(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis) {
+  R &interpretation = context.interpretation;
+  if (words.find(letterOf(axis)) || interpretation.mayBe(context.state.transformed))
+    return true;
+  if (!interpretation.mayBe(detail::isPolar(context)))
+    return false;
+  const std::optional<Plane> plane = planeOf(context);
+  return !plane || ((axis == plane->first || axis == plane->second) && namesPlane(words, *plane));
+}
 
 } // namespace feedhold

@@ -496,8 +496,9 @@ private:
   /// G27: rapid to where the reference position should be.
   void referenceCheck() {
     const Point start = state_.position;
+    const MoveKind kind = isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Rapid;
     state_.position = targetOf(context_, words_);
-    tell(context_, MoveKind::Rapid, start);
+    tell(context_, kind, start);
   }
   void home(Axis axis, Truth present, const CodeWord &word) {
     Value &position = state_.at(axis);
@@ -528,15 +529,19 @@ private:
     if constexpr (requires { interpretation_.readPosition(Axis::X); })
       for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         interpretation_.readPosition(axis);
+    const MoveKind kind = isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Probe;
     const Point target = targetOf(context_, words_);
-    for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-      if (words_.find(kAxisLetters[axis]) || interpretation_.mayBe(state_.transformed))
-        state_.position[axis] = interpretation_.between(start[axis], target[axis]);
+    for (const Axis axis : kAllAxes)
+      if (mayMove(context_, words_, axis))
+        state_.at(axis) = interpretation_.between(start[indexOf(axis)], target[indexOf(axis)]);
+    for (const auto &[letter, axis] : kTurningIncrements)
+      if (incrementsByLetter(context_) && words_.find(letter))
+        state_.at(axis) = interpretation_.between(start[indexOf(axis)], target[indexOf(axis)]);
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::SkipPosition)
         for (std::uint32_t axis = 0; axis < kAxisCount && range.first + axis <= range.last; ++axis)
           state_.variables.set(range.first + axis, state_.position[axis]);
-    tell(context_, MoveKind::Probe, start);
+    tell(context_, kind, start);
   }
 
   StepContext<R> &context_;

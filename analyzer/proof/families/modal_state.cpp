@@ -38,14 +38,14 @@ std::string nameOfPart(PartId id) {
   case Part::OtherMapping:
   case Part::PendingCoordinate:
   case Part::Transformed: return "mirror, scaling and rotation";
-  case Part::KeptFirst:
-  case Part::KeptSecond: return "polar coordinates";
   case Part::ModalCallRepeats:
   case Part::ModalCallLocal:
   case Part::OtherModalCalls: return "the modal call";
   case Part::LocalVariable:
   case Part::Variable:
   case Part::Position:
+  case Part::KeptFirst: // of the position
+  case Part::KeptSecond:
   case Part::LengthChanged:
   case Part::AxisTurned:
   case Part::CornerChamfer: // at the end none waits
@@ -79,8 +79,6 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
     return unless(ModalKind::Cycle, CodeAction::CycleOff);
   if (id.part == Part::LengthOffset)
     return unless(ModalKind::Length, CodeAction::LengthOff);
-  if (id.part == Part::KeptFirst || id.part == Part::KeptSecond)
-    return unless(ModalKind::Polar, CodeAction::PolarOff);
   const bool isCentre = id.part == Part::ScaleCentre || id.part == Part::RotationCentre;
   return isCentre ? store.no() : store.yes(); // an active mapping shows in its scale and its angle
 }
@@ -104,8 +102,9 @@ void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clau
       },
       [&](const SymbolicCode &a, const SymbolicCode &b) { return store.equal(a.index, b.index); },
       [&](const Condition &a, const Condition &b) { return store.ite(a.term, b.term, store.logicalNot(b.term)); }};
-  forEachPart<Part::LocalVariable, Part::Variable, Part::Position, Part::LengthChanged, Part::AxisTurned,
-              Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord, Part::RestoresModes>(
+  forEachPart<Part::LocalVariable, Part::Variable, Part::Position, Part::KeptFirst, Part::KeptSecond,
+              Part::LengthChanged, Part::AxisTurned, Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord,
+              Part::RestoresModes>(
       [&](PartId id, const auto &a, const auto &b) {
         const bool isNoGroup = id.part == Part::Code && (id.key == 0 || modes.group(id.key).codes.empty());
         const bool isExcepted =
