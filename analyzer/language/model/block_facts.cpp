@@ -2,6 +2,7 @@
 #include "language/model/block_facts.h"
 
 #include "base/support/text.h"
+#include "language/dialect/text_keywords.h"
 
 #include <algorithm>
 
@@ -131,12 +132,26 @@ bool ends(CodeRole role) { return role == CodeRole::ProgramEnd || role == CodeRo
 
 } // namespace
 
+bool abortsProgram(const SourceFile &source, const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  if (!dialect.grammar.oWords)
+    return false;
+  std::string_view last;
+  for (const Comment &comment : tree.commentsOf(block))
+    if (const std::string_view text = source.text(comment.span); text.starts_with('('))
+      last = text;
+  const std::size_t text = last.find_first_not_of(" \t", 1);
+  return text != std::string_view::npos && beginsUpper(last.substr(text), "ABORT,") &&
+         std::ranges::none_of(tree.statementsOf(block),
+                              [](const Statement &statement) { return std::holds_alternative<OWord>(statement.node); });
+}
+
 std::optional<unsigned> motionCodeWithLetter(const SyntaxTree &tree, BlockId block, const Statement &statement,
                                              const Dialect &dialect) {
   constexpr std::uint32_t kLength = 3; // `GO1`
   const auto *jump = std::get_if<Goto>(&statement.node);
   const auto target = jump && jump->target ? literalValue(tree, *jump->target) : std::nullopt;
-  if (!target || statement.span.size() != kLength || target->toDouble() > 3)
+  constexpr double kLast = 3; // of G00 to G03
+  if (!target || statement.span.size() != kLength || target->toDouble() > kLast)
     return std::nullopt;
   const bool isMoved = std::ranges::any_of(tree.wordsOf(block), [&](const Word &word) {
     return formatOf(dialect, word.address()).kind == AddressKind::Length;

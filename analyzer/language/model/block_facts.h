@@ -33,6 +33,10 @@ enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
 /// Ends: M02, M30, M99, `#3000=`, `o100 endsub`.  Jumps: an unconditional GOTO, `break`, `continue`, `return`.
 FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
 
+/// `(abort, no probe)` as the last `(..)` of a block without an o-word: LinuxCNC stops there, before it executes the
+/// words and statements of the block (tried on the interpreter).
+bool abortsProgram(const SourceFile &source, const SyntaxTree &tree, BlockId block, const Dialect &dialect);
+
 /// `GO1X25.`: the digit of a motion code with the letter O.  The control reads `GOTO 1`, and stops at the words behind
 /// it.  Absent: the statement is none.
 std::optional<unsigned> motionCodeWithLetter(const SyntaxTree &tree, BlockId block, const Statement &statement,

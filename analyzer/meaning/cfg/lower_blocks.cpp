@@ -31,7 +31,9 @@ void Lowering::block(BlockId id) {
   cfg_.blockNode[id.index()] = end();
   const Block &block = tree_.blocks[id];
   const bool tapeMark = block.has(Block::kPercent) && tree_.wordsOf(id).empty();
-  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && (block.flags & kUnreadInPart) == 0))
+  const bool isSilent =
+      isEmpty(tree_, id) && (block.flags & kUnreadInPart) == 0 && !abortsProgram(source_, tree_, id, dialect_);
+  if (block.has(Block::kLeader) || tapeMark || isSilent)
     return;
   block_ = id;
   if (isPlain(id))
@@ -77,6 +79,8 @@ bool Lowering::isPlain(BlockId id) {
     return false;
   if (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block == id)
     return false;
+  if (abortsProgram(source_, tree_, id, dialect_))
+    return false;
   if (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block == id)
     return false;
   for (const Word &word : tree_.wordsOf(id)) {
@@ -94,11 +98,13 @@ void Lowering::wholeBlock(BlockId id) {
   std::optional<NodeId> skip;
   if (head.has(Block::kSkip))
     skip = emit(BlockSkip{head.skipLevel, end()});
-  if (isUnread(id)) {
+  if (abortsProgram(source_, tree_, id, dialect_)) {
+    stop(AlarmKind::ProgramAborted);
+  } else if (isUnread(id)) {
     brokenBlock(blockWords);
   } else {
     for (const Statement &statement : tree_.statementsOf(id))
-      if (const auto digit = motionCodeWithLetter(tree_, id, statement, dialect_))
+      if (const auto digit = statement.nested ? std::nullopt : motionCodeWithLetter(tree_, id, statement, dialect_))
         emit(Havoc{kUnreadMotionCodes[*digit]});
     words(blockWords);
     statements();

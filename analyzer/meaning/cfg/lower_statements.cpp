@@ -88,7 +88,7 @@ const Jump *Lowering::jumpOf(const Statement &statement) const {
 }
 
 void Lowering::gotoStatement(const Statement &statement) {
-  if (motionCodeWithLetter(tree_, block_, statement, dialect_)) {
+  if (!statement.nested && motionCodeWithLetter(tree_, block_, statement, dialect_)) {
     const NodeId maybe = emitTest(std::nullopt);
     if (const Jump *jump = jumpOf(statement))
       goTo(*jump);
