@@ -78,7 +78,8 @@ std::vector<Named> labelsAt(const FileContext &context, const Jump &jump, BlockI
     return found;
   for (BlockId block = jump.block.next(); block < last && isCommentAlone(context, block); block = block.next())
     for (const Named &named : labelsIn(context, block))
-      found.push_back(named);
+      if (context.text(named.comment).find('[') == std::string_view::npos) // a block that was taken out
+        found.push_back(named);
   return found;
 }
 

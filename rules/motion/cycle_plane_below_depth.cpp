@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 namespace feedhold::rules::cycle_plane_below_depth {
 namespace {
@@ -25,13 +26,17 @@ public:
       return;
     const Word *plane = find(node, 'R');
     const Word *depth = find(node, depthAxis(state));
-    if (plane && depth && (stops() ? plane->number() < depth->number() : plane->number() <= depth->number()))
+    if (plane && depth)
       found_.emplace(node, std::pair{plane, depth});
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, words] : found_) {
       const auto &[plane, depth] = words;
+      const auto high = numberOf(*plane, facts);
+      const auto low = numberOf(*depth, facts);
+      if (!high || !low || (stops() ? *high >= *low : *high > *low))
+        continue;
       reporter.report({.message = fmt::format("{} is not above the depth {}", context.quoted(plane->span()),
                                               context.quoted(depth->span())),
                        .span = plane->span(),
@@ -51,12 +56,19 @@ private:
            : view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ}) ? 'X'
                                                                           : 'Z';
   }
-  /// A number that the node executes.
+  /// A number, or an expression, that the node executes.
   const Word *find(NodeId node, char address) const {
     for (const Word *word : view_.wordsOf(node))
-      if (word->address() == address && word->isNumber())
+      if (word->address() == address && (word->isNumber() || word->form() == WordForm::Expression))
         return word;
     return nullptr;
+  }
+  /// The same wherever the program comes to the word.
+  static std::optional<double> numberOf(const Word &word, const FlowFacts &facts) {
+    if (word.isNumber())
+      return word.number().toDouble();
+    const AbstractValue *value = facts.valueOf(word.expression());
+    return value && value->isNumber() ? value->number().constantValue() : std::nullopt;
   }
 
   MotionView view_;

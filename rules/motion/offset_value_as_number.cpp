@@ -1,5 +1,6 @@
 // offset-value-as-number: `G43 H#11001`, the length of tool 1 in the place of its number; `G41 D#501` with `#501=0.01`.
 #include "rules/flow/system_variables.h"
+#include "rules/variables/other_control.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,8 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
       !context.model.callsIn(block, block.next()).empty())
     return;
   const auto number = tableNumber(context, word.expression());
-  if (!number || !isToolOffset(context, *number) || isIndexOfOther(context, *number))
+  if (!number || !isToolOffset(context, *number) || isIndexOfOther(context, *number) ||
+      seemsForOtherControl(context)) // there the variable may be another
     return;
   const Span value = context.tree.expressions[word.expression()].span;
   reporter.report(

@@ -430,6 +430,8 @@ void LineScanner::scanHash() {
     const std::size_t end = line_.find('>', at_);
     if (line_.substr(at_, end == std::string_view::npos ? end : end - at_).find('|') != std::string_view::npos)
       count(TextSignal::PlanetMark);
+    else if (beginsUpper(rest(), "<_MOTORLIMIT_") || beginsUpper(rest(), "<_HOMESWITCH_"))
+      count(TextSignal::PlanetMark);
     else if (peek(1) == '/') // `#</atc/tool>`: a setting of FluidNC by its path
       count(TextSignal::GrblCommand);
     at_ = end == std::string_view::npos ? line_.size() : end + 1;
