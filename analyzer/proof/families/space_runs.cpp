@@ -55,9 +55,10 @@ double largestNumber(const std::vector<RecordedMove> &moves) {
   return largest;
 }
 
-geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &given) {
-  const ProofSubject &subject = context.subject;
-  return plainSpace(subject.programs, subject.program, *subject.contracts, context.witnesses.runOptions(given));
+const geometry::PlainSpace &spaceOf(const ProofContext &context, const GivenVariables &given) {
+  return context.witnesses.spaceOf(given, [&subject = context.subject](const RunOptions &run) {
+    return plainSpace(subject.programs, subject.program, *subject.contracts, run);
+  });
 }
 
 } // namespace

@@ -148,7 +148,9 @@ public:
       if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
         worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt, reach_.beside()};
     };
-    for (std::size_t i = 0; i < moves.size(); ++i)
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (!concerns(moves[i]))
+        continue;
       if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
         look(inSpace(moves[i], 0), i);
       else
@@ -157,6 +159,7 @@ public:
                : claim_ == SpaceClaim::Machine ? inMachine(move)
                                                : ofTip(move),
                i);
+    }
     if (worst && space_.tip)
       worst->at = fromHalfPlane(worst->at, *space_.tip, claim_ == SpaceClaim::Travel ? 0 : tool_.radius);
     for (std::size_t axis = 0; worst && claim_ == SpaceClaim::Machine && axis < worst->at.size(); ++axis)
@@ -165,6 +168,8 @@ public:
   }
 
 private:
+  /// Whether rapid moves are free below the clearance height depends on those before them.
+  bool concerns(const RecordedMove &move) const { return claim_ == SpaceClaim::Clearance || !filter_ || filter_(move); }
   std::optional<Deepest> depthOf(const RecordedMove &recorded, double floor) {
     if (!isFollowed(recorded)) {
       if (recorded.move.kind != MoveKind::Dwell)

@@ -185,6 +185,15 @@ RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   return options;
 }
 
+const geometry::PlainSpace &
+WitnessSearch::spaceOf(const GivenVariables &given,
+                       const std::function<geometry::PlainSpace(const RunOptions &)> &make) const {
+  InputsKey key = keyOf(given);
+  const auto known = spaces_.find(key);
+  return known != spaces_.end() ? known->second
+                                : spaces_.emplace(std::move(key), make(runOptions(given))).first->second;
+}
+
 RunResult WitnessSearch::runOf(const GivenVariables &given, WordRounding words) const {
   RunOptions options = runOptions(given);
   options.fuel = kFuel;

@@ -1,6 +1,7 @@
 // Witnesses: inputs with which a run of the concrete machine violates a claim.
 #pragma once
 
+#include "proof/geometry/gouge.h"
 #include "proof/obligation/obligation.h"
 #include "proof/replay/exact_run.h"
 #include "proof/replay/likely_calls.h"
@@ -48,10 +49,15 @@ public:
     start_ = std::move(start);
     place_ = std::move(place);
     open_ = std::move(open);
+    spaces_.clear();
   }
   /// Exact runs, if they are not those of the program without a contract.
   void followExactly(ExactRuns::Explore explore) { exactRuns_ = std::make_shared<ExactRuns>(std::move(explore)); }
   RunOptions runOptions(const GivenVariables &given) const;
+  /// The regions of the contract as numbers, in a run on these inputs: from make(runOptions(given)) for the first claim
+  /// that asks.
+  const geometry::PlainSpace &spaceOf(const GivenVariables &given,
+                                      const std::function<geometry::PlainSpace(const RunOptions &)> &make) const;
   RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
   /// Runs on likely calls, then on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
@@ -163,6 +169,7 @@ private:
   std::shared_ptr<const LikelyCalls> likely_;
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
   mutable std::map<std::pair<std::uint32_t, smt::Number>, bool> canBeTyped_;
+  mutable std::map<InputsKey, geometry::PlainSpace> spaces_;
   smt::Model others_; // inputs that satisfy what they have to
 };
 
