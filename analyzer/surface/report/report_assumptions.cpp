@@ -72,7 +72,7 @@ constexpr std::array kAssumptions = {
         "The control keeps to the path",
         "Where the contract says @CORNER, the tool leaves the programmed path by no more than that; elsewhere corner "
         "rounding in cutting mode (G64) and servo lag are not part of the proof. Nor are thermal growth and deflection "
-        "of tool and machine. Contracts must leave a margin for what is not.",
+        "of tool and machine. Contracts must leave a margin for whatever is not covered.",
         "the author of the contract", kSpace},
 };
 

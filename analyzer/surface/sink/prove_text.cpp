@@ -43,7 +43,8 @@ public:
     if (inSpace != program_.proof.obligations.end())
       text_ += fmt::format("  claims about space hold within {}\n", decimalText(*inSpace->tolerance, kMarginDecimals));
     if (const std::optional<Decimal> corner = roundedCorner())
-      text_ += fmt::format("  claims about space hold up to {} beside the programmed path\n", corner->toString());
+      text_ += fmt::format("  claims about space hold wherever the tool is within {} of the programmed path\n",
+                           corner->toString());
     if (program_.proof.incomplete)
       text_ += fmt::format("  not all paths were explored: {}\n", *program_.proof.incomplete);
     text_ += '\n';
