@@ -428,9 +428,8 @@ void LineScanner::scanHash() {
     count(TextSignal::AngleName);
     hasWord_ = true;
     const std::size_t end = line_.find('>', at_);
-    if (line_.substr(at_, end == std::string_view::npos ? end : end - at_).find('|') != std::string_view::npos)
-      count(TextSignal::PlanetMark);
-    else if (beginsUpper(rest(), "<_MOTORLIMIT_") || beginsUpper(rest(), "<_HOMESWITCH_"))
+    const std::string_view name = line_.substr(at_, end == std::string_view::npos ? end : end - at_);
+    if (name.find('|') != name.npos || beginsUpper(name, "<_MOTORLIMIT_") || beginsUpper(name, "<_HOMESWITCH_"))
       count(TextSignal::PlanetMark);
     else if (peek(1) == '/') // `#</atc/tool>`: a setting of FluidNC by its path
       count(TextSignal::GrblCommand);
