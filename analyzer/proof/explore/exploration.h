@@ -203,6 +203,8 @@ struct Exploration {
 
   /// The first call that need not return; null: there is none.
   const UnmodelledCall *callWithoutReturn() const;
+  /// Some call is taken as the contract of its program says.
+  bool reliesOnContracts() const;
   /// What is not modelled in a block, by its name.
   std::optional<std::string> unmodelledAt(Place place) const;
 };

@@ -42,6 +42,10 @@ const UnmodelledCall *Exploration::callWithoutReturn() const {
   return found == unmodelledCalls.end() ? nullptr : &*found;
 }
 
+bool Exploration::reliesOnContracts() const {
+  return std::ranges::any_of(unmodelledCalls, [](const auto &call) { return !call.promising.empty(); });
+}
+
 // ---- LoopInstance ----
 
 bool LoopInstance::isConstant(const SymbolicInterpretation &interpretation, const smt::TermStore &store,

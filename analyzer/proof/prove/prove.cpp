@@ -64,7 +64,7 @@ public:
       markRounding(contextOf(*stage_), rows);
       refuteByRounding(contextOf(*stage_), stage_->settled.denials, rows);
     }
-    const bool isOfTextsAlone = promisingIn(stage_->found).empty(); // what a guard is proved with is not told beside it
+    const bool isOfTextsAlone = !stage_->found.reliesOnContracts();
     if (subject_.options.guards == InferGuards::Yes && subject_.options.arithmetic == Arithmetic::Exact &&
         isOfTextsAlone)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
@@ -341,7 +341,7 @@ void Work::relyOnContracts() {
   options.relyOn = Reliance::Called;
   Stage promised;
   promised.found = explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
-  if (promised.found.incomplete || promisingIn(promised.found).empty())
+  if (promised.found.incomplete || !promised.found.reliesOnContracts())
     return;
   settleStage(promised);
   nameAssumed(promised.settled.rows, promised.found);
