@@ -11,9 +11,10 @@ namespace feedhold {
 namespace {
 
 bool isPlainCode(const Dialect &dialect, const Word &word) {
-  constexpr std::array kLeftBehind = {CodeAction::Unmodelled, CodeAction::Anything,    CodeAction::InterruptOn,
-                                      CodeAction::ScalingOn,  CodeAction::MirrorOn,    CodeAction::RotationOn,
-                                      CodeAction::PolarOn,    CodeAction::Unclassified};
+  constexpr std::array kLeftBehind = {CodeAction::Unmodelled,  CodeAction::Anything,   CodeAction::InterruptOn,
+                                      CodeAction::ScalingOn,   CodeAction::MirrorOn,   CodeAction::RotationOn,
+                                      CodeAction::PolarOn,     CodeAction::ScalingOff, CodeAction::MirrorOff,
+                                      CodeAction::RotationOff, CodeAction::PolarOff,   CodeAction::Unclassified};
   const auto tenths = word.tenths();
   if (!tenths)
     return false;
