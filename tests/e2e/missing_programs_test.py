@@ -42,6 +42,14 @@ IF[#100EQ5]GOTO10
 #3000=1(COUNT CHANGED)
 N10 M30
 """
+PROBED = """O1
+G65P9800A5.
+#1=1/#135
+M30
+"""
+PROBE = """@PARAM #1 FEED 1..10
+@ENSURE #135 GE 0.5
+"""
 
 
 class MissingPrograms(Scratch):
@@ -112,6 +120,38 @@ class MissingPrograms(Scratch):
         self.write("other.nc", CALLED.replace("#500=1", "#500=3"))
         rows = self.obligations("O1.nc")
         self.assertEqual({rows[row]["verdict"] for row in ("O1.program-ends", "O1.alarm-unreachable.N10")}, {"unknown"})
+
+    def test_contract_of_missing_program(self):
+        self.write("O1.nc", PROBED)
+        self.write("O9800.contract", PROBE)
+        rows = self.obligations("O1.nc")
+        division = rows["O1.no-control-alarm.L3"]
+        self.assertEqual((division["verdict"], division["ifReturning"], division["ifPromising"]),
+                         ("proved", ["O9800"], ["O9800"]))
+        self.assertEqual(rows["O1.call-meets-contract.L2"]["verdict"], "proved")
+        self.assertIn("if O9800 keeps its contract", self.feedhold("prove", "--verbose", "O1.nc").stdout)
+        rows = self.obligations("--missing", "havoc", "O1.nc")
+        self.assertEqual(rows["O1.no-control-alarm.L3"]["verdict"], "unknown")
+        self.assertFalse([row for row in rows.values() if row["ifPromising"]])
+
+    def test_other_contract_is_another_question(self):
+        self.write("O1.nc", PROBED)
+        words = ("prove", "--cache-dir", "cache", "--dialect", "fanuc-30i", "--format", "json", "O1.nc")
+        def division():
+            files = json.loads(self.feedhold(*words).stdout)["files"]
+            return {row["id"]: row["verdict"] for row in files[0]["obligations"]}["O1.no-control-alarm.L3"]
+        self.assertEqual(division(), "refuted")  # a run that passes over the call
+        self.write("O9800.contract", PROBE)
+        self.assertEqual(division(), "proved")
+        self.write("O9800.contract", PROBE.replace("GE 0.5", "GE 0"))
+        self.assertEqual(division(), "unknown")
+
+    def test_mistake_in_contract_of_missing_program(self):
+        self.write("O1.nc", PROBED)
+        self.write("O9800.contract", PROBE + "@ENSUR #136 EQ 1\n")
+        result = self.feedhold("prove", "--no-cache", "--dialect", "fanuc-30i", "O1.nc")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("O9800.contract", result.stdout + result.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #include "golden/verdicts_stage.h"
 
 #include "language/dialect/switch_names.h"
+#include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>
 
@@ -23,11 +24,18 @@ std::string detailOf(const prove::Verdict &verdict) {
   return verdict.witness() ? fmt::format("\n  {}{}", verdict.witness()->happened, settingsOf(*verdict.witness())) : "";
 }
 
+std::string assumedBy(const prove::Obligation &row) {
+  std::string text;
+  for (const std::string &assumed : row.verdict.holds() ? assumedIn(row) : std::vector<std::string>())
+    text += "\n  " + assumed;
+  return text;
+}
+
 std::string rowsOf(const ProvedFile &file, const ProvedProgram &program) {
   std::string text;
   for (const prove::Obligation &row : program.proof.obligations)
-    text += fmt::format("line {}: {}: {}: {}{}\n", file.file().source.lineOf(row.span.begin), nameOf(row.verdict),
-                        nameOf(row.kind), row.claim, detailOf(row.verdict));
+    text += fmt::format("line {}: {}: {}: {}{}{}\n", file.file().source.lineOf(row.span.begin), nameOf(row.verdict),
+                        nameOf(row.kind), row.claim, detailOf(row.verdict), assumedBy(row));
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace feedhold {
@@ -98,7 +99,8 @@ public:
     // A program that is gone was perhaps what a call without a goal has meant.
     if (isConfigured || (gone_.contains(path.parent_path()) && callers.callsSomethingMissing(index)))
       return true;
-    const std::vector<fs::path> sidecars = sidecarNames(path, callers.model(index));
+    std::vector<fs::path> sidecars = sidecarNames(path, callers.model(index));
+    std::ranges::move(sidecarNamesOfCalled(path, callers.model(index)), std::back_inserter(sidecars));
     return std::any_of(sidecars.begin(), sidecars.end(),
                        [&](const fs::path &sidecar) { return changed_.contains(sidecar); });
   }

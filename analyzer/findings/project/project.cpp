@@ -125,6 +125,8 @@ std::unique_ptr<const Project> loadProject(const WorkItem &item, const ProgramOp
       if (path.filename() != item.path.filename())
         project->files.push_back(read({pathText(path), path, source, first.dialect}));
   }
+  if (!item.path.empty())
+    project->missingContracts = missingContracts(project->files, item.path.parent_path(), options.open);
   connect(*project, LoadGraphs::Yes, 1);
   return project;
 }

@@ -4,6 +4,7 @@
 
 #include "findings/project/file_store.h"
 #include "findings/project/machine_settings.h"
+#include "findings/project/missing_contracts.h"
 #include "findings/project/workload.h"
 #include "meaning/cfg/program_set.h"
 
@@ -19,7 +20,8 @@ struct Project {
   std::vector<std::shared_ptr<const ProjectFile>> files; // by FileId
   CallGraph callGraph;
   std::vector<InferredSetting> inferred = {};
-  std::optional<ProgramSet> set; // with control flow graphs; absent: calls alone were asked for
+  MissingContracts missingContracts = {}; // of a project of one program with its folder
+  std::optional<ProgramSet> set;          // with control flow graphs; absent: calls alone were asked for
 
   const ProjectFile &file(FileId id) const { return *files[id.index()]; }
   /// Of the first file.

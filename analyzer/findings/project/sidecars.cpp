@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <set>
 
@@ -39,16 +40,22 @@ std::vector<fs::path> machineNames(const fs::path &file) {
   return names;
 }
 
+fs::path beside(const fs::path &file, const std::string &stem) {
+  return file.parent_path() / (stem + std::string(kExtension));
+}
+
+std::array<fs::path, 2> namesOf(const fs::path &file, std::uint32_t program) {
+  return {beside(file, fmt::format("O{}", program)), beside(file, fmt::format("O{:04}", program))};
+}
+
 /// Calls `visit(path, program)` for each; a name may come twice.
 template <typename Visit> void forEachName(const fs::path &file, const ProgramModel &model, Visit visit) {
-  const auto pathOf = [&](const std::string &stem) { return file.parent_path() / (stem + std::string(kExtension)); };
   for (const Program &program : model.programs)
-    if (program.name.number) {
-      visit(pathOf(fmt::format("O{}", *program.name.number)), program.name.number);
-      visit(pathOf(fmt::format("O{:04}", *program.name.number)), program.name.number);
-    }
-  visit(pathOf(pathText(file.stem())), std::optional<std::uint32_t>());
-  visit(pathOf(pathText(file.filename())), std::optional<std::uint32_t>());
+    if (program.name.number)
+      for (const fs::path &name : namesOf(file, *program.name.number))
+        visit(name, program.name.number);
+  visit(beside(file, pathText(file.stem())), std::optional<std::uint32_t>());
+  visit(beside(file, pathText(file.filename())), std::optional<std::uint32_t>());
 }
 
 Sidecar read(const fs::path &path, std::optional<std::uint32_t> program, const std::shared_ptr<const OpenTexts> &open) {
@@ -65,6 +72,14 @@ std::vector<fs::path> sidecarNames(const fs::path &file, const ProgramModel &mod
   std::vector<fs::path> names;
   forEachName(file, model, [&](fs::path path, std::optional<std::uint32_t>) { names.push_back(std::move(path)); });
   std::ranges::move(machineNames(file), std::back_inserter(names));
+  return names;
+}
+
+std::vector<fs::path> sidecarNamesOfCalled(const fs::path &file, const ProgramModel &model) {
+  std::vector<fs::path> names;
+  for (const Call &call : model.calls)
+    if (call.callee.number)
+      std::ranges::move(namesOf(file, *call.callee.number), std::back_inserter(names));
   return names;
 }
 

@@ -11,6 +11,8 @@ namespace feedhold {
 
 /// The names that the sidecars of a program file have, whether they are there or not.
 std::vector<std::filesystem::path> sidecarNames(const std::filesystem::path &file, const ProgramModel &model);
+/// The same of the programs that it calls by their numbers, which need not be in any file.
+std::vector<std::filesystem::path> sidecarNamesOfCalled(const std::filesystem::path &file, const ProgramModel &model);
 /// `part.contract`
 bool isSidecarName(const std::filesystem::path &file);
 

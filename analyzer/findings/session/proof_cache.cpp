@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kFormat = "feedhold proof 8";
+constexpr std::string_view kFormat = "feedhold proof 9";
 /// Of the 256 folders: together 131072 proofs of some kilobytes each.
 constexpr std::size_t kMostInFolder = 512;
 
@@ -35,19 +35,25 @@ private:
   std::string text_;
 };
 
+void addSidecars(Material &material, const FileContracts &contracts) {
+  material.add(contracts.sources.size());
+  for (std::size_t i = 1; i < contracts.sources.size(); ++i) {
+    material.add(pathText(fs::path(contracts.sources[i].path()).filename()));
+    material.add(contracts.sources[i].text());
+  }
+}
+
 /// All files of the folder: what one of them calls, names or returns to may concern another.
 void addFiles(Material &material, const Project &programs) {
   material.add(programs.files.size());
   for (const auto &file : programs.files) {
     material.add(pathText(file->path.filename()));
     material.add(file->source.text());
-    const auto &sources = file->contracts.sources;
-    material.add(sources.size());
-    for (std::size_t i = 1; i < sources.size(); ++i) {
-      material.add(pathText(fs::path(sources[i].path()).filename()));
-      material.add(sources[i].text());
-    }
+    addSidecars(material, file->contracts);
   }
+  material.add(programs.missingContracts.size());
+  for (const auto &[number, contracts] : programs.missingContracts)
+    addSidecars(material, *contracts);
 }
 
 std::string nameOf(const std::string &key) { return key.substr(0, 2) + "/" + key.substr(2); }
@@ -99,8 +105,9 @@ std::string proofKey(std::string_view prover, const Project &programs, ProgramId
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
   const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses, missingChangeNothing,
-               contractsOf] = options;
+               contractsOf, missingContracts] = options;
   static_cast<void>(contractsOf);
+  static_cast<void>(missingContracts);
   const auto &[search, z3, cvc5] = budget;
   Material material;
   material.add(kFormat);

@@ -317,8 +317,8 @@ prove::Verdict readVerdict(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning, unchanged, takesFewPasses] =
-      obligation;
+  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning, promising, unchanged,
+               takesFewPasses] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -332,6 +332,9 @@ void write(Writer &writer, const Obligation &obligation) {
   writer.optional(tolerance, [&](double value) { writer.real(value); });
   writer.number(returning.size());
   for (const std::string &name : returning)
+    writer.text(name);
+  writer.number(promising.size());
+  for (const std::string &name : promising)
     writer.text(name);
   writer.number(unchanged ? 1 : 0);
   writer.number(takesFewPasses ? 1 : 0);
@@ -351,6 +354,8 @@ Obligation readObligation(Reader &reader) {
     obligation.tolerance = reader.real();
   for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left)
     obligation.returning.emplace_back(reader.text());
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left)
+    obligation.promising.emplace_back(reader.text());
   obligation.unchanged = reader.numberUpTo(1) == 1;
   obligation.takesFewPasses = reader.numberUpTo(1) == 1;
   return obligation;

@@ -29,6 +29,25 @@ std::optional<PathProblem> contractMistake(const ProjectFile &file, ProgramId pr
                                  toString(file.model.programs[program].name))};
 }
 
+/// Of programs that are in none of the files.  That they do not use a variable is not known of any.
+void addMistakes(const MissingContracts &missing, std::vector<PathProblem> &errors) {
+  for (const auto &[number, contracts] : missing) {
+    const Contract *contract = contracts->of(ProgramId(0));
+    const auto mistake = std::ranges::find_if(
+        contracts->issues, [](const ContractIssue &issue) { return issue.kind != ContractIssueKind::UnusedVariable; });
+    if (!contract || contract->isSound || mistake == contracts->issues.end())
+      continue;
+    const SourceFile &source = contracts->source(mistake->source);
+    const bool isKnown =
+        std::ranges::any_of(errors, [&](const PathProblem &known) { return known.path == std::string(source.path()); });
+    if (!isKnown)
+      errors.push_back(
+          {std::string(source.path()),
+           fmt::format("line {}: a mistake in this clause, so that nothing is taken from the contract of O{}",
+                       source.lineOf(mistake->span.begin), number)});
+  }
+}
+
 struct Job {
   const Project *project;
   ProvedProgram *result;
@@ -58,6 +77,8 @@ void proveAnew(const Job &job, const prove::ProveOptions &options) {
     own.budget.z3 /= kShareOfZ3WithoutContract;
   }
   own.contractsOf = project.contracts();
+  for (const auto &[number, contracts] : project.missingContracts)
+    own.missingContracts.emplace(number, contracts.get());
   job.result->proof = prove::prove(*project.set, callee, &project.file(FileId(0)).contracts, own);
 }
 
@@ -146,6 +167,7 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
   parallelFor(items.size(), options.files.jobs,
               [&](std::size_t i) { projects[i] = loadProject(*items[i], withFolder, known); });
   for (std::unique_ptr<const Project> &project : projects) {
+    addMistakes(project->missingContracts, result.errors);
     ProvedFile &file = result.files.emplace_back(ProvedFile{std::move(project), {}});
     for (std::size_t program = 0; program < file.file().model.programs.size(); ++program)
       if (const Program &each = file.file().model.programs[ProgramId(program)]; each.isEncrypted)

@@ -8,6 +8,7 @@ namespace {
 Exploration explored(ProofStart &start, const ProofSubject &subject, const GivenVariables &given, Outcomes outcomes) {
   ExploreOptions options = start.exploreOptions(subject, exactOptions());
   options.assumptions.clear();
+  options.relyOn = Reliance::Nobody; // what no text shows refutes nothing
   if (outcomes == Outcomes::Usual) {
     start.interpretation().takeUsual(given.start.settings);
     options.cutterOffset = {};
@@ -22,7 +23,8 @@ FollowedRun::FollowedRun(const ProofSubject &subject, const GivenVariables &give
     : options_{.guards = InferGuards::No,
                .arithmetic = arithmetic,
                .missing = subject.options.missing,
-               .contractsOf = subject.options.contractsOf},
+               .contractsOf = subject.options.contractsOf,
+               .missingContracts = subject.options.missingContracts},
       subject_{subject.programs, subject.program, subject.contracts, options_}, start_(subject_, &given),
       found_(explored(start_, subject_, given, outcomes)) {}
 

@@ -1,6 +1,7 @@
 #include "proof/context/proof_start.h"
 
 #include "meaning/semantics/mappings.h"
+#include "proof/context/call_promises.h"
 #include "proof/context/index_ranges.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
@@ -214,6 +215,8 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   options.missingChangeNothing = subject.options.missingChangeNothing;
   options.takesFewPasses = subject.options.takesFewPasses;
   const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
+  options.contracts = callContracts(interpretation_, subject);
+  options.relyOn = options.missing == MissingPrograms::Return ? Reliance::Missing : Reliance::Nobody;
   options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };
   const Contract *contract = subject.contract();
   options.leavesSteps = !contract; // there are few of them without one

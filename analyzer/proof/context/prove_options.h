@@ -22,6 +22,8 @@ struct ProveOptions {
   /// Those that are taken to return (MissingPrograms::Return) change nothing, in this proof: set by prove() alone.
   bool missingChangeNothing = false;
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
+  /// Of programs that are called and in none of the files, by number: each the only one of its FileContracts.
+  std::map<std::uint32_t, const FileContracts *> missingContracts = {};
 };
 
 } // namespace feedhold::prove

@@ -14,7 +14,8 @@ namespace {
 bool breaksByFar(const ProofContext &context, const Ensure &promise, const GivenVariables &given) {
   const auto &[subject, start, found] = static_cast<const ExploredProgram &>(context);
   const RunResult run = context.witnesses.runOf(given, WordRounding::None);
-  if (!hasEnded(run.end) || run.passedUnmodelled || context.witnesses.agreesExactly(given, run) == Agreement::Different)
+  if (!hasEnded(run.end) || run.passedUnmodelled || context.witnesses.passesPromised(run) ||
+      context.witnesses.agreesExactly(given, run) == Agreement::Different)
     return false;
   ContractNumbers numbers(subject.programs, subject.program, *subject.contracts, context.witnesses.runOptions(given));
   return numbers.isClearlyBroken(promise, run, toleranceOf(*subject.contract(), subject.dialect()).toDouble());
@@ -103,6 +104,10 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
+  std::set<std::string> promised;
+  for (const auto &[number, contracts] : subject.options.missingContracts)
+    promised.insert(toString(ProgramName{.number = number, .text = {}}));
+  runs.notThrough(std::move(promised));
   runs.followExactly([&subject](const GivenVariables &given) {
     return FollowedRun(subject, given, Arithmetic::Exact, Outcomes::Usual).found();
   });

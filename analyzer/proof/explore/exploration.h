@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/tool_point.h"
+#include "proof/explore/called_contract.h"
 #include "proof/explore/path.h"
 #include "proof/geometry/tool_path.h"
 
@@ -93,6 +94,14 @@ struct CallInstance {
   smt::TermId modalCall; // a modal call is active, which the movements of the program make
 };
 
+/// The same of a program that is in none of the files, and of which a contract is at hand.
+struct PromisedEntry {
+  Place own;
+  std::shared_ptr<CalledContract> contract;
+  std::vector<smt::TermId> conditions;
+  SymbolicState state;
+};
+
 /// One path to a write of a variable that other programs can see, or to a possible one.
 struct WriteInstance {
   Place place;
@@ -139,13 +148,19 @@ struct Unmodelled {
 };
 
 /// A call that is not modelled: the run may stop in it with any alarm, after any move, or never return; or it is taken
-/// to return (MissingPrograms::Return), after any move.
+/// to return (MissingPrograms::Return) or to keep to a contract, after any move.
 struct UnmodelledCall {
   Place own;                           // of the block of the started program
   std::vector<smt::TermId> conditions; // of the path to it
   std::vector<std::size_t> loops;      // that the call is in: their instances
   std::string why;                     // `O9723 was not supplied`
   std::string returning = {};          // the name of the program that is taken to return; empty: it need not
+  /// The name of the program that is taken to do what its contract says, and to come to its end; empty: it need not.
+  std::string promising = {};
+  bool tellsWrites = false; // of such a program: its contract says what it writes (Exploration::writes)
+
+  /// It need not return, and nothing is promised of it.
+  bool mayNotReturn() const { return returning.empty() && promising.empty(); }
 };
 
 /// One symbolic iteration from an inductive invariant stands for all iterations of a loop; or the loop is unrolled,
@@ -164,6 +179,7 @@ struct Exploration {
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
   std::vector<CallInstance> calls;       // for which the started program has to answer
+  std::vector<PromisedEntry> promised;   // the same
   std::vector<MoveInstance> moves;       // of ExploreOptions::moves
   std::vector<CutterClaim> cutterClaims; // of ExploreOptions::cutterOffset
   std::vector<WriteInstance> writes;     // of ExploreOptions::keepWrites
@@ -187,6 +203,8 @@ struct Exploration {
 
   /// The first call that need not return; null: there is none.
   const UnmodelledCall *callWithoutReturn() const;
+  /// Some call is taken as the contract of its program says.
+  bool reliesOnContracts() const;
   /// What is not modelled in a block, by its name.
   std::optional<std::string> unmodelledAt(Place place) const;
 };
@@ -231,6 +249,8 @@ struct ExploreOptions {
   MissingPrograms missing = MissingPrograms::DoAnything;
   bool missingChangeNothing = false;                // those that return
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
+  CallContracts contracts = {};
+  Reliance relyOn = Reliance::Nobody;
   /// Whether the program may have been called where it ends with `M99 P`, which then returns; a started one goes on at
   /// that number of its own.  False: for single runs of a started program.
   bool mayBeCalled = true;

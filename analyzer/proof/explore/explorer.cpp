@@ -38,8 +38,12 @@ std::optional<std::string> Exploration::unmodelledAt(Place place) const {
 }
 
 const UnmodelledCall *Exploration::callWithoutReturn() const {
-  const auto found = std::ranges::find_if(unmodelledCalls, [](const auto &call) { return call.returning.empty(); });
+  const auto found = std::ranges::find_if(unmodelledCalls, [](const auto &call) { return call.mayNotReturn(); });
   return found == unmodelledCalls.end() ? nullptr : &*found;
+}
+
+bool Exploration::reliesOnContracts() const {
+  return std::ranges::any_of(unmodelledCalls, [](const auto &call) { return !call.promising.empty(); });
 }
 
 // ---- LoopInstance ----
@@ -141,7 +145,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     result_.isTooLarge = true;
   for (std::size_t call = 0; call < result_.unmodelledCalls.size(); ++call)
     for (const std::size_t loop : result_.unmodelledCalls[call].loops)
-      if (auto &known = result_.loops[loop].unmodelledCall; !known || result_.unmodelledCalls[call].returning.empty())
+      if (auto &known = result_.loops[loop].unmodelledCall; !known || result_.unmodelledCalls[call].mayNotReturn())
         known = call;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
   for (LoopInstance &loop : result_.loops)

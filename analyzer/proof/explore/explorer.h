@@ -69,6 +69,17 @@ private:
                                 std::optional<std::size_t> modal, std::string_view reason, std::string why);
   std::vector<Path> missingCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                 std::optional<std::size_t> modal, const std::string &name);
+  // ---- calls that a contract stands for (explorer_promises.cpp) ----
+  std::optional<std::vector<Path>> promisedCall(const Path &path, const CallRequest<SymbolicInterpretation> &request,
+                                                std::optional<std::size_t> modal);
+  std::optional<std::vector<Path>> pathsBehind(const Path &path, const CallRequest<SymbolicInterpretation> &request,
+                                               std::shared_ptr<CalledContract> contract);
+  bool mayStandFor(const Path &path, const CallRequest<SymbolicInterpretation> &request);
+  std::shared_ptr<CalledContract> contractFor(const Path &path, const CallRequest<SymbolicInterpretation> &request,
+                                              std::optional<std::size_t> modal);
+  SymbolicState enteredState(const Path &path, const CallRequest<SymbolicInterpretation> &request);
+  SymbolicState returnedState(const Path &path, const CallRequest<SymbolicInterpretation> &request);
+  void recordPromisedCall(const Path &path, CalledContract &contract, bool isMissing);
   std::vector<Path> enterOneOf(const Path &path, const CallRequest<SymbolicInterpretation> &request,
                                const std::map<std::uint32_t, Callee> &callees);
   void recordUnmodelledCall(const Path &path, UnmodelledCall call);
@@ -151,6 +162,7 @@ private:
   ExecutedWords<SymbolicInterpretation> words_;
   std::vector<LoopShape> shapes_; // by Exploration::loops
   KnownLoops knownLoops_;
+  std::map<Callee, bool> mayStandFor_; // their contracts, for their texts
 };
 
 /// Explores with the ranges that are told for indices, and again without those that were relied on and are not shown.

@@ -210,7 +210,11 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
       return enterOneOf(path, request, *callees);
   if (!request.callee) {
     const std::string name = nameOfCallee(path, modal);
-    if (request.possible.empty() && !request.isLocal && options_.missing == MissingPrograms::Return)
+    const bool returns = request.possible.empty() && !request.isLocal && options_.missing == MissingPrograms::Return;
+    if (returns)
+      if (auto promised = promisedCall(path, request, modal))
+        return *std::move(promised);
+    if (returns)
       return missingCall(std::move(path), request, modal, name.empty() ? std::string(kComputedCallee) : name);
     const auto times = repeatsOf(interpretation_, request);
     const bool isCertain = request.possible.empty() && (request.isLocal || options_.missing == MissingPrograms::Stop) &&
@@ -237,6 +241,8 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
     takeStops(path);
     return {};
   }
+  if (auto promised = promisedCall(path, request, modal))
+    return *std::move(promised);
   const CallSite site{path.at, modal, path.frames.back().modalLimit};
   SymbolicFrame frame = enterCall(programs_, path.state, request, site, *repeats, interpretation_,
                                   [&](const SymbolicFrame &entered, const SymbolicState &state) {

@@ -32,6 +32,11 @@ Variables variablesOf(const ProofSubject &subject, const Callee &callee) {
     }
     if (const FileContracts *contracts = subject.contractsOf({each.file, file.cfg.entryOf(each.program), each.program}))
       used.merge(variablesIn(*contracts));
+    for (const Call &call :
+         file.model->callsOf(each.program)) // a contract that stands for a missing program is read, too
+      if (const auto missing = subject.options.missingContracts.find(call.callee.number.value_or(0));
+          missing != subject.options.missingContracts.end())
+        used.merge(variablesIn(*missing->second));
   }
   return used;
 }

@@ -1,6 +1,6 @@
 // Calls meet the contracts of the programs that they call, whose proofs rest on that.
+#include "proof/context/call_promises.h"
 #include "proof/families/call_inputs.h"
-#include "proof/space/space_claims.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,22 +24,12 @@ std::optional<std::string> neverBroken(const RunResult &, const GivenVariables &
 using CallKey = std::pair<Place, std::uint32_t>;
 CallKey keyOf(const CallInstance &call) { return {call.own, static_cast<std::uint32_t>(call.callee.entry.index())}; }
 
-Question meetsContract(const ProofSubject &subject, Place own, const Callee &callee) {
+Question meetsContract(const ProofSubject &subject, Place own, const std::string &callee) {
   return {.row = subject.obligation(ObligationKind::CallMeetsContract, own, subject.spanOf(own),
-                                    fmt::format("this call satisfies the contract of {}", subject.nameOf(callee))),
+                                    fmt::format("this call satisfies the contract of {}", callee)),
           .goals = {},
           .broken = brokenByCall,
           .isJudgedExactly = true};
-}
-
-std::vector<TermId> assumedOf(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
-                              const SymbolicState &state, const Dialect &dialect) {
-  std::vector<TermId> assumed = terms.assumptions(contract, state);
-  if (contract.machine) {
-    const SpaceClaims space(store, terms, contract, state, dialect, smt::Number(0));
-    std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
-  }
-  return assumed;
 }
 
 /// A program with a contract is entered in a state that the contract allows.
@@ -54,12 +44,27 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
     ContractTerms terms(start.interpretation(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
     const TermId met = contract.isSound
-                           ? store.logicalAnd(assumedOf(store, terms, contract, call.state, subject.dialect()))
+                           ? store.logicalAnd(demandsOfCall(store, terms, contract, call.state, subject.dialect()))
                            : store.no();
     auto known = asked.find(keyOf(call));
     if (known == asked.end())
-      known = asked.emplace(keyOf(call), meetsContract(subject, call.own, call.callee)).first;
+      known = asked.emplace(keyOf(call), meetsContract(subject, call.own, subject.nameOf(call.callee))).first;
     known->second.goals.push_back({&call.conditions, met});
+  }
+  for (auto &[key, question] : asked)
+    questions.push_back(std::move(question));
+}
+
+/// The same of programs that are in none of the files.  A run does not tell what it passes them; an exact one does.
+void missingContractsAreMet(const ExploredProgram &program, Questions &questions) {
+  const auto &[subject, start, found] = program;
+  std::map<std::pair<Place, std::string>, Question> asked;
+  for (const PromisedEntry &entry : found.promised) {
+    const std::pair key(entry.own, entry.contract->name());
+    auto known = asked.find(key);
+    if (known == asked.end())
+      known = asked.emplace(key, meetsContract(subject, entry.own, key.second)).first;
+    known->second.goals.push_back({&entry.conditions, start.store().logicalAnd(entry.contract->demands(entry.state))});
   }
   for (auto &[key, question] : asked)
     questions.push_back(std::move(question));
@@ -120,7 +125,7 @@ void callsNotMet(const ExploredProgram &program, Questions &questions) {
     if (calls[CallId(i)].caller != subject.program.program || !callee || !subject.contractsOf(*callee))
       continue;
     const Place own{subject.program.file, subject.file().cfg.nodeOf(calls[CallId(i)].block)};
-    Question question = meetsContract(subject, own, *callee);
+    Question question = meetsContract(subject, own, subject.nameOf(*callee));
     const bool isMet = std::any_of(questions.begin(), questions.end(),
                                    [&](const Question &other) { return isSameClaim(other.row, question.row); });
     if (!isMet)
@@ -135,6 +140,7 @@ Questions callQuestions(const ExploredProgram &program) {
   if (!program.subject.wants(ObligationKind::CallMeetsContract))
     return questions;
   contractsAreMet(program, questions);
+  missingContractsAreMet(program, questions);
   noModalCallIsActive(program, questions);
   entriesAreAtHeads(program, questions);
   callsNotMet(program, questions);

@@ -160,7 +160,8 @@ std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopI
 
 Termination foundEnd(const ProofContext &context, const LoopInstance &loop) {
   // That an iteration is always followed by another one cannot be seen where conditions have been forgotten.
-  const bool mayRecur = !context.found.forgets && !readsAwaited(context);
+  // Nor that the program does as a contract says.
+  const bool mayRecur = !context.found.forgets && !readsAwaited(context) && !context.found.reliesOnContracts();
   Termination end;
   if (mayRecur)
     end.endless = endless(context, loop);

@@ -45,7 +45,7 @@ Verdict endOfAll(const ProofContext &context, const Instances &instances, std::u
   for (const LoopInstance *instance : instances) {
     const UnmodelledCall *call =
         instance->unmodelledCall ? &context.found.unmodelledCalls[*instance->unmodelledCall] : nullptr;
-    if (call && call->returning.empty()) {
+    if (call && call->mayNotReturn()) {
       open = Verdict::unknown(mayNotReturn(*call), instance->head);
       continue;
     }

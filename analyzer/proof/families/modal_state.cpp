@@ -3,7 +3,7 @@
 #include "language/dialect/code_name.h"
 #include "language/model/block_facts.h"
 #include "meaning/cfg/reached_programs.h"
-#include "meaning/semantics/parts.h"
+#include "proof/symbolic/modal_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -16,103 +16,9 @@ using smt::TermId;
 
 namespace {
 
-/// In the words of the manual; empty for parts that are not of the modal state.
-std::string nameOfPart(PartId id) {
-  switch (id.part) {
-  case Part::Code: return "modal G codes";
-  case Part::ModalWord: return std::string(1, kModalWords[id.key]);
-  case Part::CoordinateShift: return "the G92 offset";
-  case Part::LocalShift: return "the G52 offset";
-  case Part::LengthOffset: return "the tool length offset";
-  case Part::Spindle: return "the spindle";
-  case Part::CycleBottom:
-  case Part::CycleRetract:
-  case Part::CycleInitial:
-  case Part::CyclePeck:
-  case Part::CycleDwell: return "the words of a canned cycle";
-  case Part::Scale:
-  case Part::ScaleCentre:
-  case Part::MirrorAt:
-  case Part::RotationAngle:
-  case Part::RotationCentre:
-  case Part::OtherMapping:
-  case Part::PendingCoordinate:
-  case Part::Transformed: return "mirror, scaling and rotation";
-  case Part::ModalCallRepeats:
-  case Part::ModalCallLocal:
-  case Part::OtherModalCalls: return "the modal call";
-  case Part::LocalVariable:
-  case Part::Variable:
-  case Part::Position:
-  case Part::KeptFirst: // of the position
-  case Part::KeptSecond:
-  case Part::LengthChanged:
-  case Part::AxisTurned:
-  case Part::CornerChamfer: // at the end none waits
-  case Part::CornerRadius:
-  case Part::CornerStart:
-  case Part::EnteredLoop:
-  case Part::Counter:
-  case Part::SavedCode:
-  case Part::SavedWord:
-  case Part::RestoresModes: return "";
-  }
-  FEEDHOLD_UNREACHABLE("the switch names every part");
-}
-
-/// Parts that take effect only while a code of their group is active.
-TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &state) {
-  smt::TermStore &store = program.start.store();
-  const ModalTable modes(program.subject.dialect());
-  const auto unless = [&](ModalKind kind, CodeAction cancel) {
-    const auto group = modes.groupOf(kind);
-    const CodeMask off = modes.maskOf(kind, {cancel});
-    if (!group || off == 0)
-      return store.yes();
-    const TermId cancelled =
-        program.start.interpretation().code(static_cast<std::uint8_t>(std::countr_zero(off))).index;
-    return store.logicalNot(store.equal(state.codes[*group].index, cancelled));
-  };
-  constexpr std::array kOfCycle = {Part::CycleBottom, Part::CycleRetract, Part::CycleInitial, Part::CyclePeck,
-                                   Part::CycleDwell};
-  if (std::find(kOfCycle.begin(), kOfCycle.end(), id.part) != kOfCycle.end())
-    return unless(ModalKind::Cycle, CodeAction::CycleOff);
-  if (id.part == Part::LengthOffset)
-    return unless(ModalKind::Length, CodeAction::LengthOff);
-  const bool isCentre = id.part == Part::ScaleCentre || id.part == Part::RotationCentre;
-  return isCentre ? store.no() : store.yes(); // an active mapping shows in its scale and its angle
-}
-
-/// Calls notKept(part, condition under which it is that of the entry) for each part of the modal state.
-template <typename Visit>
-void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state,
-                      Visit visit) {
-  SymbolicInterpretation &interpretation = program.start.interpretation();
-  smt::TermStore &store = program.start.store();
-  SymbolicState before = program.start.entry();
-  SymbolicState now = state;
-  if (!alignAll(interpretation, before, now))
-    visit(PartId{Part::OtherModalCalls}, store.no());
-  dropDifferentModalCalls(before, now);
-  const ModalTable modes(program.subject.dialect());
-  const auto equal = Overloaded{
-      [&](const SymbolicValue &a, const SymbolicValue &b) {
-        return store.logicalAnd(store.equal(a.vacant, b.vacant),
-                                store.logicalOr(a.vacant, store.equal(a.number, b.number)));
-      },
-      [&](const SymbolicCode &a, const SymbolicCode &b) { return store.equal(a.index, b.index); },
-      [&](const Condition &a, const Condition &b) { return store.ite(a.term, b.term, store.logicalNot(b.term)); }};
-  forEachPart<Part::LocalVariable, Part::Variable, Part::Position, Part::KeptFirst, Part::KeptSecond,
-              Part::LengthChanged, Part::AxisTurned, Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord,
-              Part::RestoresModes>(
-      [&](PartId id, const auto &a, const auto &b) {
-        const bool isNoGroup = id.part == Part::Code && (id.key == 0 || modes.group(id.key).codes.empty());
-        const bool isExcepted =
-            id.part == Part::ModalWord && clause.except.find(kModalWords[id.key]) != std::string::npos;
-        if (!isNoGroup && !isExcepted)
-          visit(id, store.implies(isUsed(program, id, state), equal(a, b)));
-      },
-      before, now);
+std::vector<ModalPart> partsOf(const ExploredProgram &program, const ModalPreserved &clause,
+                               const SymbolicState &state) {
+  return modalParts(program.start.interpretation(), program.subject.dialect(), clause, program.start.entry(), state);
 }
 
 /// Codes outside of all groups act once; path control codes and unmodelled codes may set a mode.
@@ -182,7 +88,8 @@ std::optional<std::string> modeNotTold(const ExploredProgram &program) {
 TermId modalStateKept(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state) {
   smt::TermStore &store = program.start.store();
   TermId kept = store.yes();
-  forEachModalPart(program, clause, state, [&](PartId, TermId isKept) { kept = store.logicalAnd(kept, isKept); });
+  for (const auto &[id, isKept] : partsOf(program, clause, state))
+    kept = store.logicalAnd(kept, isKept);
   return kept;
 }
 
@@ -191,10 +98,9 @@ std::string whyNotKept(const ExploredProgram &program, const ModalPreserved &cla
   if (const auto mode = modeNotTold(program))
     names.insert(*mode);
   for (const PathExit &exit : program.found.exits)
-    forEachModalPart(program, clause, exit.state, [&](PartId id, TermId isKept) {
+    for (const auto &[id, isKept] : partsOf(program, clause, exit.state))
       if (isKept != program.start.store().yes())
         names.insert(nameOfPart(id));
-    });
   std::string all;
   for (const std::string &name : names)
     all += fmt::format("{}{}", all.empty() ? "" : ", ", name);

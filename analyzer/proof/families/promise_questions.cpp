@@ -1,4 +1,5 @@
 // What the contract of a program promises for its return, and for the calls that raise alarms.
+#include "language/contract/assigned_cells.h"
 #include "language/contract/reserved.h"
 #include "proof/families/families.h"
 #include "proof/families/modal_state.h"
@@ -60,23 +61,6 @@ bool isSeenByOthers(const ProofSubject &subject, std::uint32_t variable) {
     return subject.programs.isGlobalName(variable);
   const VariableRange *row = findVariable(subject.dialect(), variable);
   return row && row->kind != VariableKind::Local;
-}
-
-/// The cells of the control behind the numbers that a contract names.  Numbers that are one cell on some controls only
-/// are not allowed with each other.
-std::set<std::uint32_t> cellsOf(const Dialect &dialect, const std::vector<Assigns> &clauses) {
-  std::set<std::uint32_t> cells;
-  for (const Assigns &clause : clauses)
-    for (const Assigns::Variables &range : clause.variables)
-      for (const VariableRange &row : dialect.variables)
-        for (std::uint32_t number = std::max(range.first, row.first); number <= std::min(range.last, row.last);
-             ++number) {
-          cells.insert(cellOf(dialect, number));
-          if (const BitWord *word = findBitWord(dialect, number))
-            for (std::uint32_t bit = 0; bit < word->bits; ++bit)
-              cells.insert(word->firstBit + bit);
-        }
-  return cells;
 }
 
 Question promise(const ProofSubject &subject, ObligationKind kind, ClauseId clause) {
@@ -154,7 +138,7 @@ Questions assignQuestions(const ExploredProgram &program) {
   const Contract &contract = *subject.contract();
   if (contract.assigns.empty() || !subject.wants(ObligationKind::Assigns))
     return {};
-  const std::set<std::uint32_t> allowed = cellsOf(subject.dialect(), contract.assigns);
+  const std::set<std::uint32_t> allowed = assignedCells(subject.dialect(), contract.assigns);
   Question question = promise(subject, ObligationKind::Assigns, contract.assigns.front().clause);
   question.broken = [](const RunResult &run, const GivenVariables &) { return brokenByWrite(run); };
   for (const WriteInstance &write : found.writes) {
@@ -167,8 +151,9 @@ Questions assignQuestions(const ExploredProgram &program) {
            .missedBy = fmt::format("{} changes `{}`, which the clause does not list", subject.lineOf(write.place),
                                    subject.programs.nameOfVariable(*write.variable))});
   }
-  if (!found.unmodelledCalls.empty())
-    question.open = fmt::format("{}; it may write any variable", found.unmodelledCalls.front().why);
+  const auto any = std::ranges::find(found.unmodelledCalls, false, &UnmodelledCall::tellsWrites);
+  if (any != found.unmodelledCalls.end())
+    question.open = fmt::format("{}; it may write any variable", any->why);
   if (question.goals.empty() && !found.incomplete) // there is nothing to break it
     question.goals.push_back({&start.demands(), start.store().yes()});
   return {std::move(question)};

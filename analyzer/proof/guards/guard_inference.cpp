@@ -364,6 +364,7 @@ Trial GuardInference::exploredWith(const Obligation &claim, TermId condition) {
   const ProofSubject &subject = context_.subject;
   ExploreOptions options = start_.exploreOptions(subject);
   options.assumptions.push_back(condition);
+  options.relyOn = Reliance::Nobody; // a guard does not say with what it is proved
   options.mostWork = work_;
   const Exploration found =
       explore(start_.interpretation(), subject.programs, subject.program, start_.entry(), options);

@@ -27,6 +27,8 @@ struct Obligation {
   std::optional<double> tolerance = {}; // of a claim about space: how far the tool may pass what it says
   /// Missing programs that are taken to return (MissingPrograms::Return), of a verdict that holds if they do.
   std::vector<std::string> returning = {};
+  /// Programs that are taken to do what their contracts say, of a verdict that holds if they do.
+  std::vector<std::string> promising = {};
   bool unchanged = false;      // of a verdict that holds if those programs change nothing, too
   bool takesFewPasses = false; // of a verdict that holds if no loop makes more than kMostPasses
 };

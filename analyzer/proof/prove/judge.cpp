@@ -43,6 +43,15 @@ void refuteByRounding(const ProofContext &context, const std::vector<Denial> &de
 
 namespace {
 
+void refuteWith(const ProofContext &context, Witness witness, Obligation &row) {
+  row.returning.clear();
+  row.promising.clear();
+  row.unchanged = false;
+  const std::set<std::string> skipped = context.witnesses.runOf(witness.variables).skipped;
+  row.verdict = std::move(witness);
+  row.verdict.setReturning(skipped);
+}
+
 using FindRun = std::function<std::optional<Witness>(const Violation &)>;
 
 std::vector<Contradiction> contradictions(const ProofContext &context, const std::vector<Denial> &denials,
@@ -54,6 +63,10 @@ std::vector<Contradiction> contradictions(const ProofContext &context, const std
     if (row == rows.end())
       continue;
     if (auto witness = denyingRun(denial.violation(context))) {
+      if (!row->promising.empty()) { // a called program does not what the proof took it to do
+        refuteWith(context, *std::move(witness), *row);
+        continue;
+      }
       found.push_back({row->id, std::string(nameOf(row->verdict)), *std::move(witness)});
       row->verdict = Verdict::unknown("a run contradicts the proof: this is a bug in Feedhold");
     }

@@ -1,5 +1,6 @@
 #include "proof/prove/prove.h"
 
+#include "proof/context/call_promises.h"
 #include "proof/families/families.h"
 #include "proof/guards/guard_inference.h"
 #include "proof/obligation/obligation_kinds.h"
@@ -63,9 +64,12 @@ public:
       markRounding(contextOf(*stage_), rows);
       refuteByRounding(contextOf(*stage_), stage_->settled.denials, rows);
     }
-    if (subject_.options.guards == InferGuards::Yes && subject_.options.arithmetic == Arithmetic::Exact)
+    const bool isOfTextsAlone = !stage_->found.reliesOnContracts();
+    if (subject_.options.guards == InferGuards::Yes && subject_.options.arithmetic == Arithmetic::Exact &&
+        isOfTextsAlone)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
-    nameReturning(rows);
+    nameAssumed(rows, stage_->found);
+    relyOnContracts();
     putInOrder(rows);
     std::vector<Contradiction> contradictions = judge(contextOf(*stage_), stage_->settled.denials, rows);
     if (subject_.contract() && !subject_.contract()->isSound)
@@ -77,19 +81,13 @@ public:
   void hold(const GivenVariables &given, ProgramProof &proof) {
     const WitnessSearch::Sample run{given, witnesses_->runOf(given)};
     refute(contextOf(*stage_), stage_->settled.denials, run, proof.obligations);
-    nameReturning(proof.obligations);
+    nameSkipped(proof.obligations);
     std::ranges::move(judgeRun(contextOf(*stage_), stage_->settled.denials, run, proof.obligations),
                       std::back_inserter(proof.contradictions));
   }
 
   /// The missing programs that are taken to return.
-  std::set<std::string> returning() const {
-    std::set<std::string> names;
-    for (const UnmodelledCall &call : stage_->found.unmodelledCalls)
-      if (!call.returning.empty())
-        names.insert(call.returning);
-    return names;
-  }
+  std::set<std::string> returning() const { return namesIn(stage_->found, &UnmodelledCall::returning); }
 
 private:
   ProofContext contextOf(Stage &stage) {
@@ -142,19 +140,39 @@ private:
 
   void followIterations();
   void searchWidely();
+  void relyOnContracts();
+  void takeOver(Stage &promised);
   Exploration exploreWidely();
   void settleAgain(Stage &stage, const std::string &method);
   void goOnWith(std::unique_ptr<Stage> stage);
 
-  /// Which missing programs a verdict takes to return: for all runs, or in the run of the witness.
-  void nameReturning(std::vector<Obligation> &rows) const {
-    const std::set<std::string> names = returning();
-    if (names.empty())
+  static std::set<std::string> namesIn(const Exploration &found, std::string UnmodelledCall::*name) {
+    std::set<std::string> names;
+    for (const UnmodelledCall &call : found.unmodelledCalls)
+      if (!(call.*name).empty())
+        names.insert(call.*name);
+    return names;
+  }
+  /// The programs that are taken to do what their contracts say.
+  static std::set<std::string> promisingIn(const Exploration &found) {
+    return namesIn(found, &UnmodelledCall::promising);
+  }
+
+  /// What a verdict takes other programs to do: for all runs of the exploration, or in the run of the witness.
+  void nameAssumed(std::vector<Obligation> &rows, const Exploration &found) const {
+    const std::set<std::string> names = namesIn(found, &UnmodelledCall::returning), promising = promisingIn(found);
+    for (Obligation &row : rows)
+      if (row.verdict.holds()) {
+        row.returning.assign(names.begin(), names.end());
+        row.promising.assign(promising.begin(), promising.end());
+      }
+    nameSkipped(rows);
+  }
+  void nameSkipped(std::vector<Obligation> &rows) const {
+    if (returning().empty())
       return;
     for (Obligation &row : rows)
-      if (row.verdict.holds())
-        row.returning.assign(names.begin(), names.end());
-      else if (const Witness *witness = row.verdict.witness())
+      if (const Witness *witness = row.verdict.witness())
         row.verdict.setReturning(witnesses_->runOf(witness->variables).skipped);
   }
 
@@ -190,11 +208,12 @@ private:
 bool isOpen(const Obligation &row) { return row.verdict == Verdict::Unknown; }
 
 /// No path stops at the place, and all paths have been followed to their end.  A run that comes to `#3000=` stops
-/// there, so that no run comes to it; one that comes to a block where a control may stop does not always do so.
+/// there, so that no run comes to it; one that comes to a block where a control may stop does not always do so. Nothing
+/// is asked of a call to which no path comes, or of which what is asked is plain.
 Obligation notMet(Obligation row, const std::string &method) {
   if (isOpen(row) && row.kind == ObligationKind::AlarmUnreachable)
     row.verdict = verdict::Unreachable{.method = method};
-  if (isOpen(row) && row.kind == ObligationKind::NoControlAlarm)
+  if (isOpen(row) && (row.kind == ObligationKind::NoControlAlarm || row.kind == ObligationKind::CallMeetsContract))
     row.verdict = verdict::Proved{.proof = {.method = method}};
   return row;
 }
@@ -308,9 +327,51 @@ Exploration Work::exploreWidely() {
   return explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
 }
 
+/// Claims that are open where the texts of called programs are followed: they are asked once more with their contracts
+/// in the place of the texts.  The verdicts say so, and everything else goes on with what the texts have shown.
+void Work::relyOnContracts() {
+  constexpr std::uint64_t kMostSteps = 100'000'000;
+  std::vector<Obligation> &rows = stage_->settled.rows;
+  const bool someCall = !anyCall_ || !anyCall_->proved();
+  if (subject_.options.missing != MissingPrograms::Return || !someCall || std::ranges::none_of(rows, isOpen) ||
+      !callsPromising(subject_))
+    return;
+  const smt::Steps share(std::min(kMostSteps, smt::stepsLeft() / 3), smt::Steps::AtEnd::GoOn);
+  ExploreOptions options = start_.exploreOptions(subject_);
+  options.relyOn = Reliance::Called;
+  Stage promised;
+  promised.found = explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
+  if (promised.found.incomplete || !promised.found.reliesOnContracts())
+    return;
+  settleStage(promised);
+  nameAssumed(promised.settled.rows, promised.found);
+  takeOver(promised);
+}
+
+/// What was open and is decided now; and what was never come to, if paths were missing.
+void Work::takeOver(Stage &promised) {
+  std::vector<Obligation> &rows = stage_->settled.rows, &others = promised.settled.rows;
+  for (Obligation &row : rows) {
+    if (!isOpen(row))
+      continue;
+    const auto same = std::ranges::find_if(others, [&](const Obligation &other) { return isSameClaim(row, other); });
+    std::vector<Obligation> decided{same == others.end() ? notMet(row, "contracts of called programs") : *same};
+    if (same == others.end())
+      nameAssumed(decided, promised.found);
+    if (!isOpen(decided.front()))
+      row = std::move(decided.front());
+  }
+  if (!stage_->found.incomplete)
+    return;
+  for (Obligation &other : others)
+    if (std::ranges::none_of(rows, [&](const Obligation &row) { return isSameClaim(row, other); }))
+      rows.push_back(std::move(other));
+  std::ranges::move(promised.settled.denials, std::back_inserter(stage_->settled.denials));
+}
+
 bool isByRounding(const Obligation &exact) {
   const Witness *witness = exact.verdict.witness();
-  return exact.verdict.holds() || (witness && witness->happened.ends_with(kByRounding));
+  return (exact.verdict.holds() && exact.promising.empty()) || (witness && witness->happened.ends_with(kByRounding));
 }
 
 constexpr std::string_view kRoundingMayBreak = "holds in exact arithmetic; rounding on the control may break it";
@@ -412,6 +473,7 @@ void proveOfFewPasses(const ProofSubject &subject, ProgramProof &proof) {
       if (isOpenByRounding(row) && isSameClaim(row, other) && other.verdict.holds()) {
         row.verdict = other.verdict;
         row.returning = other.returning;
+        row.promising = other.promising;
         row.takesFewPasses = true;
       }
   std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));
@@ -486,6 +548,7 @@ void proveOfUnchanged(const ProofSubject &subject, ProgramProof &proof) {
       if (isOpenEnd(row) && isSameClaim(row, other) && other.verdict.holds() && !other.returning.empty()) {
         row.verdict = other.verdict;
         row.returning = other.returning;
+        row.promising = other.promising;
         row.unchanged = true;
       }
   std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));

@@ -166,6 +166,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt:
   narrowed.exactRuns_ = exactRuns_;
   narrowed.likely_ = likely_;
   narrowed.replays_ = replays_;
+  narrowed.promised_ = promised_;
   narrowed.demands_.push_back(demand);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (smt::isTrue(interpretation_.store(), demand, inputs[i]))
@@ -201,8 +202,14 @@ RunResult WitnessSearch::runOf(const GivenVariables &given, WordRounding words) 
   return run(programs_, entry_, options);
 }
 
-std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violation &violation) {
-  return run.result.passedUnmodelled ? std::nullopt : violation.happened(run.result, run.given);
+bool WitnessSearch::passesPromised(const RunResult &run) const {
+  return std::ranges::any_of(run.skipped, [&](const std::string &name) { return promised_.contains(name); });
+}
+
+/// Where an exact run decides, it takes what is passed over to do anything.
+std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violation &violation) const {
+  const bool showsNothing = run.result.passedUnmodelled || (!violation.breaksExactly && passesPromised(run.result));
+  return showsNothing ? std::nullopt : violation.happened(run.result, run.given);
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {

@@ -53,6 +53,10 @@ public:
   }
   /// Exact runs, if they are not those of the program without a contract.
   void followExactly(ExactRuns::Explore explore) { exactRuns_ = std::make_shared<ExactRuns>(std::move(explore)); }
+  /// Missing programs of which contracts say what they do: a run that passes over one of them shows what another
+  /// program does, which changes nothing.
+  void notThrough(std::set<std::string> programs) { promised_ = std::move(programs); }
+  bool passesPromised(const RunResult &run) const;
   RunOptions runOptions(const GivenVariables &given) const;
   /// The regions of the contract as numbers, in a run on these inputs: from make(runOptions(given)) for the first claim
   /// that asks.
@@ -134,7 +138,7 @@ private:
                              std::span<const double> answers, double afterwards) const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.
-  static std::optional<std::string> broken(const Sample &run, const Violation &violation);
+  std::optional<std::string> broken(const Sample &run, const Violation &violation) const;
   bool canBeTyped(std::uint32_t variable, const smt::Number &number, smt::TermId input) const;
   bool isAllowed(const GivenVariables &given) const;
   void addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const;
@@ -171,6 +175,7 @@ private:
   mutable std::map<std::pair<std::uint32_t, smt::Number>, bool> canBeTyped_;
   mutable std::map<InputsKey, geometry::PlainSpace> spaces_;
   smt::Model others_; // inputs that satisfy what they have to
+  std::set<std::string> promised_;
 };
 
 } // namespace feedhold::prove

@@ -106,8 +106,7 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
     state.variables.set(oldVariable(local), entry.locals[local]);
   for (const std::uint32_t variable : oldVariables_)
-    state.variables.set(oldVariable(variable),
-                        interpretation_.unwritten(entry, cellOf(*programs_.file(file_).dialect, variable)));
+    state.variables.set(oldVariable(variable), valueOf(variable, entry));
   smt::spend(kStepsOfTerm);
   return state;
 }

@@ -64,6 +64,7 @@ private:
             {"reason", orNull(verdict.reason())},
             {"exactOnly", verdict.exactOnly()},
             {"ifReturning", obligation.returning},
+            {"ifPromising", obligation.promising},
             {"ifUnchanged", obligation.unchanged},
             {"ifPassesAtMost", obligation.takesFewPasses ? Json(prove::kMostPasses) : Json()},
             {"bound", orNull(verdict.bound())},

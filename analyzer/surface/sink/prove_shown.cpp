@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace feedhold {
@@ -208,6 +209,20 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
                                      programs == 1 ? "returns and changes nothing" : "return and change nothing");
 }
 
+namespace {
+
+/// That a missing program returns is told beside it; of one that is in the files it is a claim of its own proof.
+std::string keeping(const Obligation &obligation) {
+  const bool isOne = obligation.promising.size() == 1;
+  const bool isOfEnd =
+      (obligation.kind == ObligationKind::LoopEnds || obligation.kind == ObligationKind::ProgramEnds) &&
+      !std::ranges::includes(obligation.returning, obligation.promising); // both in order
+  const std::string_view ends = !isOfEnd ? "" : isOne ? "comes to its end and " : "come to their end and ";
+  return fmt::format("{}{}", ends, isOne ? "keeps its contract" : "keep their contracts");
+}
+
+} // namespace
+
 std::vector<std::string> assumedIn(const Obligation &obligation) {
   std::vector<std::string> assumed;
   if (const std::size_t programs = obligation.returning.size(); programs > 0)
@@ -217,6 +232,8 @@ std::vector<std::string> assumedIn(const Obligation &obligation) {
                                   : programs == 1       ? " and changes nothing"
                                                         : " and change nothing",
                                   programs == 1 ? "is" : "are"));
+  if (const std::size_t programs = obligation.promising.size(); programs > 0)
+    assumed.push_back(fmt::format("if {} {}", listOf(obligation.promising), keeping(obligation)));
   if (obligation.takesFewPasses)
     assumed.emplace_back("if no loop makes more than 10^12 passes");
   return assumed;
