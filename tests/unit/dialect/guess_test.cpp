@@ -183,6 +183,13 @@ TEST(Guess, SettingsByTheirNumbersAreGrbl) {
   EXPECT_EQ(guessed("M3 $0 S1000\nM3 $1 S500\no1 if [1]\no1 endif\nM2\n"), "linuxcnc");
 }
 
+TEST(Guess, GrblByItsNameOrItsFiles) {
+  constexpr std::string_view kGrbl = "RS274NGC of grblHAL or FluidNC";
+  EXPECT_EQ(guessed("( Created by GrblGru )\nG21 G90\nG0 Z25\nG1 Z-1 F100\nM2\n"), kGrbl);
+  EXPECT_EQ(guessed("o1 if [#<_current_tool> EQ 1]\nM61 Q#<_selected_tool>\no1 endif\nM99\n", "tc.macro"), kGrbl);
+  EXPECT_EQ(guessed("O9010\nIF[#1EQ#0]GOTO10\n#3000=1\nN10 G65 P9011 A1.\nM99\n", "probe.macro"), "fanuc-30i");
+}
+
 TEST(Guess, HobbyControls) {
   constexpr std::string_view kHobby = "G code of a printer or a hobby control (Marlin, Smoothieware, RepRap)";
   EXPECT_EQ(guessed("G91\nG38.2 Z P0\nG10 L20 P1 Z25.4\nG0 Z2.5\n"), kHobby);
