@@ -46,6 +46,8 @@ constexpr std::array kGrbl = {
     LanguageHint{TextSignal::OWord, 30},
     LanguageHint{TextSignal::AngleName, 30},
     LanguageHint{TextSignal::GrblCommand, 70},
+    LanguageHint{TextSignal::GrblComment, 40},
+    LanguageHint{TextSignal::GrblFile, 70},
     LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kSyntec = {
@@ -127,6 +129,9 @@ constexpr std::array kAcramatic = {
 constexpr std::array kPrinter = {
     LanguageHint{TextSignal::PrinterMessage, 15},
     LanguageHint{TextSignal::PrinterHeater, 8},
+    LanguageHint{TextSignal::PrinterText, 15},
+    LanguageHint{TextSignal::PrinterProbe, 20}, // more than all that G38 speaks for LinuxCNC
+    LanguageHint{TextSignal::TemplateName, 8},
 };
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
@@ -172,7 +177,7 @@ constexpr std::array kLanguages = {
                     kLetterVariables},
     ForeignLanguage{"a program for OSAI", "statements in parentheses would be read as comments", kOsai},
     ForeignLanguage{"a program for Acramatic (Cincinnati)", "its codes are not those of a Macro B control", kAcramatic},
-    ForeignLanguage{"G code of a printer or a hobby control (Marlin, Smoothieware, Carvera)",
+    ForeignLanguage{"G code of a printer or a hobby control (Marlin, Smoothieware, RepRap)",
                     "its M codes and messages are not those of a Macro B control; exclude these files", kPrinter},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},

@@ -60,12 +60,22 @@ Words wordsBeside(const FileContext &context, const Call &call) {
   return found;
 }
 
+/// D and R may belong to a mode, E to a builder's code, and I, J, K to an arc that is in force.
+bool isClear(const FileContext &context, const Call &call, const std::vector<const Word *> &meaningless) {
+  const auto isAny = [](std::string_view letters) {
+    return [letters](const Word &word) { return letters.find(word.address()) != std::string_view::npos; };
+  };
+  const auto words = context.tree.wordsOf(call.block);
+  return meaningless.size() >= 2 ||
+         (std::ranges::any_of(words, isAny("IJK")) && std::ranges::none_of(words, isAny("XYZ")));
+}
+
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.model.calls[id];
   if (call.kind != CallKind::Subprogram || !call.programWord || hasOwnCode(context, call.block))
     return;
   const Words words = wordsBeside(context, call);
-  if (words.meaningless.size() < 2 && !words.taken)
+  if (!words.taken && !isClear(context, call, words.meaningless))
     return;
   const Word &word = words.taken ? *words.taken : *words.meaningless.front();
   reporter.report(

@@ -31,8 +31,10 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   Diagnostic diagnostic{.message = fmt::format("{} needs brackets around the expression", context.quoted(issue.other)),
                         .span = issue.other,
                         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))}};
+  // Nobody writes a product of two numbers: `Y20 *45` ends with a checksum.
+  const bool isComputed = word.find('#') != std::string_view::npos;
   if (context.dialect.grammar.anyIndex || !hasVariableWithPoint(word))
-    diagnostic.fixes = {{FixSafety::Safe,
+    diagnostic.fixes = {{isComputed ? FixSafety::Safe : FixSafety::NeedsReview,
                          "put the expression in brackets",
                          {{{open, open}, "["}, {{issue.span.end, issue.span.end}, "]"}}}};
   reporter.report(std::move(diagnostic));

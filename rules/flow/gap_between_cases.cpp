@@ -1,10 +1,12 @@
-// gap-between-cases: `IF[#1LT5]THEN#2=10` and `IF[#1GT5]THEN#2=20`: at 5 neither sets `#2`.
+// gap-between-cases: `IF[#1LT5]THEN#2=10` and `IF[#1GT5]THEN#2=20`: at 5 neither sets `#2`.  The limit may be a
+// variable.
 #include "rules/flow/flow_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace feedhold::rules::gap_between_cases {
@@ -16,9 +18,17 @@ struct Case {
   std::uint32_t asked;
   std::uint32_t set;
   OperatorKind op;
-  Decimal limit;
+  std::string limit; // `5`, `#4`
   Span span;
 };
+
+/// A number, or a variable.
+std::optional<std::string> limitOf(const FileContext &context, ExpressionId id) {
+  if (const auto number = literalValue(context.tree, id))
+    return number->toString();
+  const auto variable = variableNumber(context.tree, unwrapped(context.tree, id));
+  return variable ? std::optional(fmt::format("#{}", *variable)) : std::nullopt;
+}
 
 /// Absent for another statement, and for a condition with more than one comparison.
 std::optional<Case> caseIn(const FlowFacts &facts, const FileContext &context, NodeId node) {
@@ -27,7 +37,7 @@ std::optional<Case> caseIn(const FlowFacts &facts, const FileContext &context, N
   if (!relation || !isRelation(relation->op))
     return std::nullopt;
   const auto asked = variableNumber(context.tree, unwrapped(context.tree, relation->left));
-  const auto limit = literalValue(context.tree, relation->right);
+  const auto limit = limitOf(context, relation->right);
   const BlockId block = facts.node(node).block;
   if (!asked || !limit)
     return std::nullopt;
@@ -69,7 +79,7 @@ bool asksForLimit(const FlowFacts &facts, const FileContext &context, const Case
       if (relation && isRelation(relation->op) && relation->op != OperatorKind::LessThan &&
           relation->op != OperatorKind::GreaterThan &&
           variableNumber(context.tree, unwrapped(context.tree, relation->left)) == one.asked &&
-          literalValue(context.tree, relation->right) == one.limit)
+          limitOf(context, relation->right) == one.limit)
         return true;
     }
   }
@@ -89,12 +99,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     });
     if (above == cases.end() || !hasNoDefault(context, facts.program, cases, below.set))
       continue;
-    reporter.report({.message = fmt::format("where `#{}` is exactly {}, nothing sets `#{}`", below.asked,
-                                            below.limit.toString(), below.set),
-                     .span = above->span,
-                     .labels = {{below.span, "nor does this"}},
-                     .notes = {fmt::format("`#{}` is vacant then, or has the value of an earlier run", below.set),
-                               "write GE or LE in one of the conditions"}});
+    reporter.report(
+        {.message = fmt::format("where `#{}` is exactly {}, nothing sets `#{}`", below.asked, below.limit, below.set),
+         .span = above->span,
+         .labels = {{below.span, "nor does this"}},
+         .notes = {fmt::format("`#{}` is vacant then, or has the value of an earlier run", below.set),
+                   "write GE or LE in one of the conditions"}});
     return;
   }
 }

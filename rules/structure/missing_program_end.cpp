@@ -81,15 +81,20 @@ const Call *unseenCallIn(const FileContext &context, BlockId block) {
   return found == calls.end() ? nullptr : &*found;
 }
 
-/// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.
+/// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.  Behind a `%`
+/// a control reads no further, or begins there.
 bool isHeadOfFile(const FileContext &context, ProgramId id) {
   const Program &program = context.model.programs[id];
   if (id.index() != 0 || isNamed(program) || context.dialect.grammar.oWords ||
       id.next().index() >= context.model.programs.size() || !isNamed(context.model.programs[id.next()]))
     return false;
-  for (BlockId block = program.first; block < program.last; block = block.next())
-    if (context.tree.blocks[block].has(Block::kBroken))
+  bool hasBegun = false;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    const Block &its = context.tree.blocks[block];
+    if (its.has(Block::kBroken) || (hasBegun && its.has(Block::kPercent)))
       return false;
+    hasBegun = hasBegun || hasContent(context, block);
+  }
   return true;
 }
 

@@ -1,9 +1,11 @@
 // repeated-o-word: two `o100 if` in one program.
+#include "language/model/repeated_labels.h"
 #include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <utility>
 
 namespace feedhold::rules::repeated_o_word {
@@ -36,22 +38,22 @@ void checkSubs(const FileContext &context, const Reporter &reporter) {
 
 void check(const FileContext &context, const Reporter &reporter) {
   checkSubs(context, reporter);
-  std::map<std::pair<ProgramId, std::string>, const OWordUse *> first;
-  for (const Construct &construct : context.model.constructs) {
-    const OWordUse &head = context.model.oWords[construct.parts.front()];
-    if (construct.kind == OWordKind::Sub || head.label.empty())
-      continue;
-    const auto [known, isNew] = first.try_emplace(std::pair(head.program, head.label), &head);
-    if (isNew || known->second == nullptr)
+  std::set<std::pair<ProgramId, std::string>> told;
+  for (const auto &[id, repetition] : repeatedLabels(context.model)) {
+    const OWordUse &head = context.model.oWords[context.model.constructs[id].parts.front()];
+    const OWordUse &other = context.model.oWords[context.model.constructs[repetition.other].parts.front()];
+    const bool isSure = repetition.kind == RepeatedLabel::Surely;
+    if (other.block > head.block || !told.emplace(head.program, head.label).second)
       continue;
     const Span span = context.tree.statements[head.statement].span;
     reporter.report(
         {.message = fmt::format("{} has the label of an earlier o-word of this program", context.quoted(span)),
          .span = span,
-         .labels = {{context.tree.statements[known->second->statement].span, "first used here"}},
-         .notes = {"what the interpreter does with a label that is used twice is not defined",
-                   "give each o-word block its own number"}});
-    known->second = nullptr; // once for each label
+         .labels = {{context.tree.statements[other.statement].span, "first used here"}},
+         .notes = {isSure ? "the interpreter stops here: duplicate O-word label"
+                          : "the interpreter stops when one run meets both: duplicate O-word label",
+                   "give each o-word block its own number"}},
+        isSure ? Severity::Error : Severity::Warning);
   }
 }
 
@@ -59,7 +61,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule repeatedOWord;
 const Rule repeatedOWord{
-    .info = {"repeated-o-word", Category::Structure, Severity::Info,
+    .info = {"repeated-o-word", Category::Structure, Severity::Error,
              "Reports an o-word block with the label of a subroutine, or of an earlier block in the "
              "same program."},
     .hooks = {.file = check}};

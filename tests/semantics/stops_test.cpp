@@ -45,6 +45,7 @@ const std::vector<Stop> kStops = {
     STOP(CycleWithoutLevel, "linuxcnc", "g21 g90 g17\ng81 x1 y1 r1 f10\nm2\n"),
     STOP(CycleWithoutLevel, "fanuc-30i", "O1\nG90G17G80\nG81X1.Z-1.F10\nM30\n", &Switches::bareCycleStops),
     STOP(ProgramAborted, "linuxcnc", "g21 g90\n(abort, no probe)\nm2\n"),
+    STOP(RepeatedLabel, "linuxcnc", "g21 g90\no1 if [0]\no1 endif\no1 while [0]\no1 endwhile\nm2\n"),
     STOP(NoModalCall, "fanuc-30i", "O1\nG67\nM30\n", &Switches::g67, Switch::Off),
     STOP(Overflow, "fanuc-30i", "O1\n#1=EXP[800]\nM30\n"),
     STOP(Overflow, "fanuc-30i", "O1\n#1=EXP[-70]\nM30\n", &Switches::f16),

@@ -64,12 +64,12 @@ void countNames(std::string_view text, TextScan &scan) {
       {"0I-C", TextSignal::FanucSeries0Comment},     {"0I-D", TextSignal::FanucSeries0Comment},
       {"16I-", TextSignal::FanucSeries0Comment},     {"18I-", TextSignal::FanucSeries0Comment},
       {"21I-", TextSignal::FanucSeries0Comment},     {"LINUXCNC", TextSignal::NgcComment},
-      {"PATHPILOT", TextSignal::NgcComment},
+      {"PATHPILOT", TextSignal::NgcComment},         {"GRBL", TextSignal::GrblComment},
   };
   bool isStart = true;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = toUpper(text[i]);
-    if (isStart && (c == 'F' || c == 'H' || c == 'M' || c == 'L' || c == 'P' || (c >= '0' && c <= '3'))) {
+    if (isStart && (c == 'F' || c == 'G' || c == 'H' || c == 'M' || c == 'L' || c == 'P' || (c >= '0' && c <= '3'))) {
       for (const auto &name : kNames)
         if (beginsUpper(text.substr(i), name.begin) && scan.count(name.signal) == 0 && !namesEquipment(text))
           count(name.signal, scan);

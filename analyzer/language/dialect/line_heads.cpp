@@ -71,20 +71,6 @@ void LineScanner::scanHead() {
   }
 }
 
-/// `M118 Probing`, `M104 S200`: messages and heaters of hobby controls and printers.
-void LineScanner::scanPrinterCommand() {
-  static constexpr std::string_view kMessages[] = {"M117 ", "M118 "};
-  static constexpr std::string_view kHeaters[] = {"M104 S", "M109 S", "M140 S", "M190 S"};
-  const auto begins = [&](std::string_view command) { return beginsUpper(rest(), command); };
-  if (std::ranges::any_of(kMessages, begins) && isLetter(peek(5)) && isLetter(peek(6))) {
-    count(TextSignal::PrinterMessage);
-    hasWord_ = true;
-    stop();
-  } else if (std::ranges::any_of(kHeaters, begins) && isDigit(peek(6))) {
-    count(TextSignal::PrinterHeater);
-  }
-}
-
 /// The rest of a line that begins with `%`: leader text, unless a language makes something of it.
 void LineScanner::scanPercent() {
   ++at_;
@@ -155,12 +141,15 @@ void LineScanner::scanDollar() {
                                                   "DO",  "ENDDO",  "BREAK",  "DEFAULT", "CONTINUE"};
   static constexpr std::string_view kDirective[] = {"INCLUDE", "LIST", "NOLIST", "EJECT", "MIX"};
   // Homing, jogging, switches of states, and settings by name or by path.
-  static constexpr std::string_view kGrbl[] = {"H", "J", "G", "I", "X", "C", "N", "SLP", "ALARM", "SETTINGS"};
+  static constexpr std::string_view kGrbl[] = {"H", "HX", "HY",  "HZ",  "J",   "G",   "I",     "X",
+                                               "C", "N",  "SLP", "TLR", "TPW", "RST", "ALARM", "SETTINGS"};
   ++at_;
-  if (isDigit(peek())) { // `$2`: what follows is for the second system of the machine
+  if (isDigit(peek())) { // `$2`: what follows is for the second system of the machine; `$110=1000`: a setting
     takeNumber();
     skipBlanks();
-    if (atEnd())
+    if (peek() == '=' && isDigit(peek(1)))
+      count(TextSignal::GrblCommand);
+    else if (atEnd())
       count(TextSignal::SystemMark);
     else
       hasUnknown_ = true;

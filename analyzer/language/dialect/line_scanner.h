@@ -98,6 +98,8 @@ private:
   void scanDollar();
   void scanWaiting();
   void scanPrinterCommand();
+  bool scanHobbyMark(char mark);
+  void scanTemplateName();
   void scanHashHead();
   void scanNumberHead();
   bool scanOWord();
@@ -161,6 +163,7 @@ private:
   bool hasCondition_ = false; // IF or WHILE
   bool endsWithThen_ = false;
   bool hasOWord_ = false;
+  bool hasProbing_ = false; // G38
   bool hasG65_ = false;
   bool hasM98_ = false;
   bool hasM97_ = false;

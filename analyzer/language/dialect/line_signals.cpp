@@ -21,13 +21,13 @@ void LineScanner::scanToken() {
   switch (c) {
   case ' ':
   case '\t':
-  case '[':
   case ']':
   case '+':
   case '-':
   case ',':
   case '/':
   case '%': ++at_; return;
+  case '[': scanTemplateName(); return;
   case '@': scanAt(); return;
   case '*':
     ++at_;
@@ -66,7 +66,7 @@ void LineScanner::scanMark(char c) {
       countCLike();
   } else if (isAngle) {
     countCLike();
-  } else if (static_cast<unsigned char>(c) >= 0x20 && c != '=') {
+  } else if (!scanHobbyMark(c) && static_cast<unsigned char>(c) >= 0x20 && c != '=') {
     hasUnknown_ = true; // blanks of other kinds and tape leader bytes are nothing
   }
 }
@@ -350,6 +350,7 @@ void LineScanner::scanGCode(const Number &number) {
     if ((number.whole == 33 && number.tenths == '1') ||
         (number.whole == 38 && number.tenths >= '2' && number.tenths <= '5'))
       count(TextSignal::NgcCode);
+    hasProbing_ = hasProbing_ || number.whole == 38;
     return;
   }
   if (number.whole < gCodes_.size())
@@ -515,15 +516,6 @@ void LineScanner::scanAngle() {
   count(peek() == '=' ? TextSignal::CentroidStatement : TextSignal::FanucProgramName); // `<SPEED> = #S`
 }
 
-void LineScanner::scanString() {
-  const std::size_t end = line_.find('"', at_ + 1);
-  if (hasG65_ || hasM98_) // a subprogram by the name of its file
-    count(TextSignal::CentroidStatement);
-  else
-    hasUnknown_ = true;
-  at_ = end == std::string_view::npos ? line_.size() : end + 1;
-}
-
 /// `IF [#1 GT 2]` and nothing behind it.
 bool LineScanner::isBareIf() const {
   if (!hasIf_ || hasOWord_ || !beginsUpper(trimmed(line_), "IF"))
@@ -539,6 +531,8 @@ void LineScanner::countCombinations() {
     note(TextSignal::HuazhongIf);
   if (hasG65_ && hasLetter('P'))
     count(TextSignal::MacroCall);
+  if (hasProbing_ && hasNumber('P'))
+    count(TextSignal::PrinterProbe);
   if (hasM98_ && hasLetter('P'))
     count(TextSignal::SubprogramCall);
   if (hasG65_ && hasLetter('H') && hasVariableP_) // `P#100` is where the result goes; of a call it is the program

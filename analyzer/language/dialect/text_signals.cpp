@@ -22,6 +22,7 @@ struct NamedSignal {
 constexpr NamedSignal kExtensions[] = {
     {"mpf", TextSignal::SinumerikFile}, {"spf", TextSignal::SinumerikFile}, {"min", TextSignal::OkumaFileName},
     {"ssb", TextSignal::OkumaFileName}, {"eia", TextSignal::EiaFile},       {"ngc", TextSignal::NgcFile},
+    {"macro", TextSignal::GrblFile},
 };
 
 /// Documents, source code, data, pictures, archives, and the tables and settings of controls and simulators.
@@ -130,6 +131,12 @@ void weighLoops(TextScan &scan) {
     scan.counts[static_cast<std::size_t>(TextSignal::LoneEndWhile)] = 0;
 }
 
+/// Shops call their Macro B so, too.
+void weighFileOfGrbl(TextScan &scan) {
+  if (scan.count(TextSignal::OWord) == 0 && scan.count(TextSignal::AngleName) == 0)
+    scan.counts[static_cast<std::size_t>(TextSignal::GrblFile)] = 0;
+}
+
 } // namespace
 
 TextScan scanText(std::string_view text, std::string_view path) {
@@ -156,6 +163,7 @@ TextScan scanText(std::string_view text, std::string_view path) {
     at = lineEnd == end ? end : lineEnd + 1;
   }
   weighLoops(scan);
+  weighFileOfGrbl(scan);
   return scan;
 }
 

@@ -9,6 +9,7 @@ namespace feedhold {
 namespace {
 
 constexpr std::string_view kUnpaired = "an o-word without its partner";
+constexpr std::string_view kRepeated = "an o-word whose label may have been used before";
 
 } // namespace
 
@@ -35,10 +36,23 @@ void Lowering::oWordStatement(StatementId id, const OWord &oWord) {
   case OWordKind::Break:
   case OWordKind::Continue: break;
   }
-  if (construct)
+  if (construct) {
+    if (model_.oWords[model_.constructs[*construct].parts.front()].statement == id)
+      headOfConstruct(*construct);
     partOfConstruct(oWord.kind, *construct, value);
-  else
+  } else {
     emit(Havoc{kUnpaired});
+  }
+}
+
+void Lowering::headOfConstruct(ConstructId id) {
+  const auto repeated = repeatedLabels_.find(id);
+  if (repeated == repeatedLabels_.end())
+    return;
+  if (repeated->second.kind == RepeatedLabel::Surely)
+    stop(AlarmKind::RepeatedLabel);
+  else
+    emit(Havoc{kRepeated});
 }
 
 void Lowering::partOfConstruct(OWordKind kind, ConstructId id, std::optional<ExpressionId> value) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "language/model/contours.h"
+#include "language/model/repeated_labels.h"
 #include "meaning/cfg/block_words.h"
 #include "meaning/cfg/cfg.h"
 #include "meaning/cfg/loop_gates.h"
@@ -83,6 +84,7 @@ private:
   // lower_o_words.cpp
   struct ConstructNodes;
   void oWordStatement(StatementId id, const OWord &oWord);
+  void headOfConstruct(ConstructId id);
   void partOfConstruct(OWordKind kind, ConstructId id, std::optional<ExpressionId> value);
   void nextBranch(ConstructNodes &nodes, OWordKind kind, std::optional<ExpressionId> value);
   void startRepeat(ConstructNodes &nodes, std::optional<ExpressionId> times);
@@ -143,6 +145,7 @@ private:
     std::vector<NodeId> continues;   // lead to the end
   };
   std::vector<ConstructNodes> constructNodes_; // by ConstructId
+  std::map<ConstructId, LabelRepetition> repeatedLabels_ = repeatedLabels(model_);
 };
 
 } // namespace feedhold

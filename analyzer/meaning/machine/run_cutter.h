@@ -45,6 +45,7 @@ public:
   double magnitude(Vector v) const { return std::hypot(v.first, v.second); }
   Vector unit(Vector v) const { return 1 / magnitude(v) * v; }
   Vector direction(Vector v) const { return unit(v); }
+  Vector crossing(Vector n, Vector m, double radius) const { return radius / (1 + dot(n, m)) * (n + m); }
   double quotient(double dividend, double divisor) const { return dividend / divisor; }
   double least(double a, double b) const { return std::min(a, b); }
 

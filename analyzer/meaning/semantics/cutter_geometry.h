@@ -19,6 +19,8 @@
 //                                 tolerance
 //   number, magnitude, unit, quotient, least, apart
 //   direction(vector)             unit, or the vector itself
+//   crossing(normal, normal, radius)  from a corner to where the lines cross that lie the radius beside it along both
+//                                 normals; for arcs, beside their tangents
 //   sweepOf, turnByAngle, innerCrossing, arcReversed, centreArc
 //                                 what needs angles, or the crossing of circles
 #pragma once
@@ -134,13 +136,6 @@ PlaneVector<N> tangentAt(Host &host, const CutterElement<N> &arc, PlaneVector<N>
   return host.unit(quarterTurn(point - arc.centre, arc.way));
 }
 
-/// Where both offset lines, or those of the tangents at the corner, cross.
-template <typename Host, typename N>
-PlaneVector<N> mitre(Host &host, const CutterElement<N> &before, const CutterElement<N> &behind, N radius) {
-  const N cosine = dot(before.endDirection, behind.startDirection);
-  return host.quotient(radius, host.number(1) + cosine) * (before.endNormal + behind.startNormal);
-}
-
 /// Straight pieces.  Beside an arc they begin or end square to it: the arc of the centre keeps its ends.
 template <typename Host, typename N>
 std::vector<PlaneVector<N>> outerVectors(Host &host, const CutterElement<N> &before, const CutterElement<N> &behind,
@@ -151,7 +146,7 @@ std::vector<PlaneVector<N>> outerVectors(Host &host, const CutterElement<N> &bef
   if (before.isArc)
     vectors.push_back(radius * before.endNormal);
   if (!host.holds(host.negative(dot(a, b), 0))) {
-    vectors.push_back(mitre(host, before, behind, radius));
+    vectors.push_back(host.crossing(before.endNormal, behind.startNormal, radius));
   } else {
     vectors.push_back(radius * (before.endNormal + a));
     vectors.push_back(radius * (behind.startNormal - b));
@@ -224,7 +219,7 @@ CutterJoin<typename Host::Length> joinOf(Host &host, const CutterElement<typenam
     break;
   case CornerTurn::Inner:
     if (!before.isArc && !behind.isArc)
-      join.vectors = {detail::mitre(host, before, behind, side.radius)};
+      join.vectors = {host.crossing(before.endNormal, behind.startNormal, side.radius)};
     else if (const auto crossing = host.innerCrossing(before, behind, side))
       join.vectors = {*crossing};
     break;

@@ -1,7 +1,10 @@
 #include "proof/explore/path_cutter.h"
 
+#include "proof/smt/ground_truth.h"
+
 namespace feedhold::prove {
 
+using smt::Number;
 using smt::TermId;
 
 namespace {
@@ -9,8 +12,8 @@ constexpr std::string_view kOpen =
     "cutter compensation where the turn at a corner, the way of a block or its length is "
     "not the same for all arguments";
 constexpr std::string_view kAside =
-    "cutter compensation of a block that is not along an axis for certain, or of an arc "
-    "that begins or ends beside the axes through its centre";
+    "cutter compensation of a block, or of an end of an arc, whose direction is not the same "
+    "for all arguments";
 constexpr std::string_view kCrossing = "cutter compensation at a corner beside an arc that is not tangent";
 constexpr std::string_view kType = "cutter compensation that begins or ends at an outer corner: its type is not known "
                                    "(parameter 5003#0, the switch `sup`)";
@@ -22,54 +25,85 @@ bool PathCutter::undecided(std::string_view why) {
   return false;
 }
 
+/// A condition on roots alone is enclosed.
+bool PathCutter::proves(TermId truth) {
+  if (truth == store_.yes() || truth == store_.no())
+    return truth == store_.yes();
+  const auto known = smt::GroundTruth(store_).of(truth);
+  return known ? *known : explored_.proves(truth);
+}
+
 bool PathCutter::holds(Truth truth) {
-  if (truth.term == store_.yes() || truth.term == store_.no())
-    return truth.term == store_.yes();
-  if (explored_.proves(truth.term))
+  if (proves(truth.term))
     return true;
-  return explored_.proves(store_.logicalNot(truth.term)) ? false : undecided(kOpen);
+  return proves(store_.logicalNot(truth.term)) ? false : undecided(kOpen);
 }
 
 bool PathCutter::isOn(Switch setting) { return setting == Switch::Unknown ? undecided(kType) : setting == Switch::On; }
 
-bool PathCutter::isZero(Length length) {
-  const TermId isNone = none(length, 0).term;
-  return isNone == store_.yes() || (isNone != store_.no() && explored_.proves(isNone));
-}
+bool PathCutter::isZero(Length length) { return proves(none(length, 0).term); }
 
 int PathCutter::signOf(Length length) {
-  const auto known = [&](Truth truth) {
-    return truth.term == store_.yes() || (truth.term != store_.no() && explored_.proves(truth.term));
-  };
-  if (known(positive(length, 0)))
+  if (proves(positive(length, 0).term))
     return 1;
-  return known(negative(length, 0)) ? -1 : 0;
+  return proves(negative(length, 0).term) ? -1 : 0;
 }
 
-/// Of a vector along an axis.
-PathCutter::Length PathCutter::magnitude(Vector v) {
-  const bool isSecond = isZero(v.first);
-  const Length length = isSecond ? v.second : v.first;
-  if (!isSecond && !isZero(v.second)) {
-    undecided(kAside);
-    return length;
-  }
-  if (isZero(length))
-    return {};
-  const int sign = signOf(length);
+/// By the form of the terms, or by what the path says of them: along an axis, or by half a right angle.
+std::optional<geometry::Slope> PathCutter::slopeOf(Vector v) {
+  std::optional<geometry::Slope> slope;
+  if (isZero(v.first))
+    slope = geometry::Slope{0, 1, term(v.second)};
+  else if (isZero(v.second))
+    slope = geometry::Slope{1, 0, term(v.first)};
+  else
+    slope = geometry::slopeOf(store_, term(v.first), term(v.second));
+  for (const int second : {1, -1})
+    if (!slope && isZero(second > 0 ? v.first - v.second : v.first + v.second))
+      slope = geometry::Slope{1, second, term(v.first)};
+  const int sign = slope ? signOf({store_, slope->times}) : 0;
   if (sign == 0)
+    return std::nullopt;
+  return sign > 0 ? slope : geometry::Slope{-slope->first, -slope->second, store_.negate(slope->times)};
+}
+
+PathCutter::Length PathCutter::magnitude(Vector v) {
+  if (isZero(v.first) && isZero(v.second))
+    return {};
+  const auto slope = slopeOf(v);
+  if (!slope) {
     undecided(kAside);
-  return withSign(sign < 0 ? -1 : 1, length);
+    return v.first;
+  }
+  return Length(store_, slope->times) * lengthOf(*slope);
 }
 
 PathCutter::Vector PathCutter::unit(Vector v) {
-  const bool isSecond = isZero(v.first);
-  const int sign = isSecond || isZero(v.second) ? signOf(isSecond ? v.second : v.first) : 0;
-  if (sign == 0)
+  const auto slope = slopeOf(v);
+  if (!slope) {
     undecided(kAside);
-  const Length one = number(sign < 0 ? -1 : 1);
-  const Length none = number(0);
-  return isSecond ? Vector{none, one} : Vector{one, none};
+    return {number(1), number(0)};
+  }
+  const Number square = slope->first * slope->first + slope->second * slope->second;
+  const auto part = [&](const Number &of) { return Length(store_, store_.scale(of / square, term(lengthOf(*slope)))); };
+  return {part(slope->first), part(slope->second)};
+}
+
+/// Both lines are `v . n = radius |n|`, with whole numbers for the normals: by Cramer's rule the crossing has no root
+/// in a divisor.
+PathCutter::Vector PathCutter::crossing(Vector n, Vector m, Length radius) {
+  const auto a = slopeOf(n), b = slopeOf(m);
+  const Number determinant = a && b ? a->first * b->second - a->second * b->first : Number(0);
+  if (determinant.isZero()) {
+    undecided(kAside);
+    return {};
+  }
+  const TermId ofA = term(radius * lengthOf(*a)), ofB = term(radius * lengthOf(*b));
+  const auto crossed = [&](const Number &factorOfA, const Number &factorOfB) {
+    return Length(store_,
+                  store_.add(store_.scale(factorOfA / determinant, ofA), store_.scale(factorOfB / determinant, ofB)));
+  };
+  return {crossed(b->second, -a->second), crossed(-b->first, a->first)};
 }
 
 PathCutter::Length PathCutter::least(Length a, Length b) {

@@ -4,11 +4,13 @@
 // then lost (its moves are not those of the tool).  Where the control may stop, the path goes on: that it does not stop
 // is a claim (CutterClaim), and what the moves behind it rest on.
 //
-// Crossings with arcs that are no tangents, and directions beside the axes, are not computed.
+// A direction is known where it is the same for all arguments: along an axis, or by the numbers of a slope.  Crossings
+// with arcs that are no tangents are not computed.
 #pragma once
 
 #include "meaning/semantics/cutter_path.h"
 #include "proof/explore/exploration.h"
+#include "proof/geometry/slope.h"
 
 #include <functional>
 #include <map>
@@ -89,6 +91,7 @@ public:
   Length magnitude(Vector v);
   Vector unit(Vector v);
   Vector direction(Vector v) { return v; }
+  Vector crossing(Vector n, Vector m, Length radius);
   Length quotient(Length dividend, Length divisor) { return {store_, store_.divide(term(dividend), term(divisor))}; }
   Length least(Length a, Length b);
 
@@ -114,9 +117,13 @@ public:
 private:
   smt::TermId zero() { return store_.number(smt::Number(0)); }
   smt::TermId term(Length length) { return length.in(store_); }
+  bool proves(smt::TermId truth);
   bool isZero(Length length);
   /// 1 above 0, -1 below; 0: neither is known.
   int signOf(Length length);
+  /// Present where its `times` is above 0.
+  std::optional<geometry::Slope> slopeOf(Vector v);
+  Length lengthOf(const geometry::Slope &slope) { return {store_, geometry::lengthOf(store_, slope)}; }
   bool undecided(std::string_view why);
 
   smt::TermStore &store_;

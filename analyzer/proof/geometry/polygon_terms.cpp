@@ -1,5 +1,7 @@
 #include "proof/geometry/polygon_terms.h"
 
+#include "proof/geometry/slope.h"
+
 namespace feedhold::geometry {
 
 using smt::Number;
@@ -10,28 +12,42 @@ PolygonTerms::PolygonTerms(smt::TermStore &store, std::vector<Corner> corners)
 
 /// Above 0 where (x, y) is on the inner side of the line; its distance times the length of the side.
 TermId PolygonTerms::cross(std::size_t side, TermId x, TermId y, Turn turn) const {
-  const auto &[ax, ay] = from(side);
-  const auto &[bx, by] = to(side);
-  const TermId left = store_.subtract(store_.multiply(store_.subtract(bx, ax), store_.subtract(y, ay)),
-                                      store_.multiply(store_.subtract(by, ay), store_.subtract(x, ax)));
-  return turn == Turn::Left ? left : store_.negate(left);
+  return across(wayOf(side), side, x, y, turn);
+}
+
+TermId PolygonTerms::across(const Way &way, std::size_t side, TermId x, TermId y, Turn turn) const {
+  const TermId left = store_.subtract(store_.multiply(way.x, store_.subtract(y, from(side)[1])),
+                                      store_.multiply(way.y, store_.subtract(x, from(side)[0])));
+  const TermId inner = turn == Turn::Left ? left : store_.negate(left);
+  return way.isOpposite == store_.no() ? inner : store_.ite(way.isOpposite, store_.negate(inner), inner);
+}
+
+PolygonTerms::Way PolygonTerms::wayOf(std::size_t side) const {
+  return {store_.subtract(to(side)[0], from(side)[0]), store_.subtract(to(side)[1], from(side)[1]), store_.no()};
 }
 
 TermId PolygonTerms::length(std::size_t side) const {
-  const TermId x = store_.subtract(to(side)[0], from(side)[0]);
-  const TermId y = store_.subtract(to(side)[1], from(side)[1]);
-  const TermId zero = store_.number(Number(0));
-  if (x == zero)
-    return store_.absolute(y);
-  if (y == zero)
-    return store_.absolute(x);
-  return store_.apply(smt::Function::Sqrt, store_.add(store_.multiply(x, x), store_.multiply(y, y)));
+  const Way way = wayOf(side);
+  return lengthOf(store_, way.x, way.y);
 }
 
+/// As long as the numbers of its slope, where it has one; a side of no length may seem to lead anywhere.
+std::pair<PolygonTerms::Way, TermId> PolygonTerms::shortWayOf(std::size_t side) const {
+  const Way way = wayOf(side);
+  const auto slope = slopeOf(store_, way.x, way.y);
+  if (!slope)
+    return {way, lengthOf(store_, way.x, way.y)};
+  return {
+      {store_.number(slope->first), store_.number(slope->second), store_.less(slope->times, store_.number(Number(0)))},
+      lengthOf(store_, *slope)};
+}
+
+/// Of a side of no length it may say no where all corners are on its side.
 TermId PolygonTerms::cornersOnSide(std::size_t side, Turn turn) const {
+  const Way way = shortWayOf(side).first;
   std::vector<TermId> all;
   for (const auto &[x, y] : corners_)
-    all.push_back(store_.lessOrEqual(store_.number(Number(0)), cross(side, x, y, turn)));
+    all.push_back(store_.lessOrEqual(store_.number(Number(0)), across(way, side, x, y, turn)));
   return store_.logicalAnd(all);
 }
 
@@ -57,17 +73,18 @@ bool PolygonTerms::isKnownConvex() const {
 TermId PolygonTerms::deepIn(const Point &point, Turn turn, TermId distance) const {
   std::vector<TermId> all;
   for (std::size_t side = 0; side < corners_.size(); ++side) {
+    const auto [way, length] = shortWayOf(side);
     all.push_back(cornersOnSide(side, turn));
-    all.push_back(store_.lessOrEqual(store_.multiply(distance, length(side)), cross(side, point[0], point[1], turn)));
+    all.push_back(store_.lessOrEqual(store_.multiply(distance, length), across(way, side, point[0], point[1], turn)));
   }
   return store_.logicalAnd(all);
 }
 
 TermId PolygonTerms::beyond(const Point &point, std::size_t side, Turn turn, TermId distance) const {
-  const TermId span = length(side);
+  const auto [way, span] = shortWayOf(side);
   const std::array all{
-      cornersOnSide(side, turn), store_.less(store_.number(Number(0)), span),
-      store_.lessOrEqual(cross(side, point[0], point[1], turn), store_.negate(store_.multiply(distance, span)))};
+      cornersOnSide(side, turn), store_.less(store_.number(Number(0)), length(side)),
+      store_.lessOrEqual(across(way, side, point[0], point[1], turn), store_.negate(store_.multiply(distance, span)))};
   return store_.logicalAnd(all);
 }
 

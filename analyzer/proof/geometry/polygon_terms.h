@@ -4,6 +4,7 @@
 #include "proof/smt/term.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace feedhold::geometry {
@@ -39,7 +40,17 @@ public:
 private:
   const Corner &from(std::size_t side) const { return corners_[side]; }
   const Corner &to(std::size_t side) const { return corners_[(side + 1) % corners_.size()]; }
+  /// Along a side; where `isOpposite` holds, against it.
+  struct Way {
+    TermId x;
+    TermId y;
+    TermId isOpposite;
+  };
+  Way wayOf(std::size_t side) const;
+  /// And its length.
+  std::pair<Way, TermId> shortWayOf(std::size_t side) const;
   TermId cross(std::size_t side, TermId x, TermId y, Turn turn) const;
+  TermId across(const Way &way, std::size_t side, TermId x, TermId y, Turn turn) const;
   TermId cornersOnSide(std::size_t side, Turn turn) const;
   TermId length(std::size_t side) const;
   TermId isApart(std::size_t side, std::size_t other) const;

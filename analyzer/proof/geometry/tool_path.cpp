@@ -1,5 +1,7 @@
 #include "proof/geometry/tool_path.h"
 
+#include "proof/geometry/slope.h"
+
 namespace feedhold::geometry {
 
 using smt::Number;
@@ -230,14 +232,8 @@ TermPoint ToolPath::atCentre(TermPoint point) const {
 /// The box around the full circle; of an arc whose ends are not as far from the centre, around the larger one.
 ToolPath::Hull ToolPath::arcHull() {
   const Spokes ends = spokes();
-  const TermId zero = store_.number(Number(0));
-  const auto radiusOf = [&](TermId first, TermId second) {
-    if (first == zero)
-      return store_.absolute(second);
-    return second == zero ? store_.absolute(first) : store_.apply(smt::Function::Sqrt, square(first, second));
-  };
-  const TermId atStart = radiusOf(ends.startFirst, ends.startSecond);
-  const TermId atEnd = radiusOf(ends.endFirst, ends.endSecond);
+  const TermId atStart = lengthOf(store_, ends.startFirst, ends.startSecond);
+  const TermId atEnd = lengthOf(store_, ends.endFirst, ends.endSecond);
   Hull hull;
   TermId radius = atStart;
   if (atStart != atEnd) {

@@ -230,11 +230,14 @@ TermId TermStore::multiply(std::span<const TermId> terms) {
   };
   for (TermId term : terms)
     take(term, take);
+  constant *= joinRoots(factors);
   if (factors.empty() || constant.isZero())
     return number(constant);
   std::sort(factors.begin(), factors.end());
   if (factors.size() == 1)
     return scale(constant, factors.front());
+  if (const auto sum = spreadRoot(factors))
+    return scale(constant, *sum);
   bool whole = std::all_of(factors.begin(), factors.end(), [this](TermId factor) { return sort(factor) == Sort::Int; });
   return scale(constant, intern({.kind = TermKind::Multiply,
                                  .sort = whole ? Sort::Int : Sort::Real,

@@ -166,6 +166,9 @@ private:
   TermId junction(TermKind kind, std::span<const TermId> terms);
   std::optional<TermId> foldedFloor(TermId argument);
   std::optional<TermId> foldedNearest(TermId argument);
+  bool isRootOfNumber(TermId term) const;
+  Number joinRoots(std::vector<TermId> &factors);
+  std::optional<TermId> spreadRoot(const std::vector<TermId> &factors);
   std::optional<TermId> folded(Function function, std::span<const TermId> arguments);
   bool isWhole(const LinearSum &sum) const;
 

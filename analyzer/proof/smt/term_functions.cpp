@@ -113,6 +113,44 @@ std::optional<TermId> TermStore::foldedFloor(TermId argument) {
   return add(left, floor(fromLinear(rest)));
 }
 
+bool TermStore::isRootOfNumber(TermId id) const {
+  const Term &term = terms_[id];
+  return term.kind == TermKind::Apply && term.function == Function::Sqrt && isNumber(term.arguments[0]) &&
+         terms_[term.arguments[0]].number.sign() >= 0;
+}
+
+/// The roots of two numbers are one root: `sqrt(2) * sqrt(8)` is 4.  A number that they make is returned.
+Number TermStore::joinRoots(std::vector<TermId> &factors) {
+  const auto isRoot = [this](TermId factor) { return isRootOfNumber(factor); };
+  if (std::ranges::count_if(factors, isRoot) < 2)
+    return Number(1);
+  Number square(1);
+  for (const TermId factor : factors)
+    if (isRoot(factor))
+      square *= terms_[terms_[factor].arguments[0]].number;
+  std::erase_if(factors, isRoot);
+  const TermId root = apply(Function::Sqrt, number(square));
+  if (isNumber(root))
+    return terms_[root].number;
+  factors.push_back(root);
+  return Number(1);
+}
+
+/// The root of a number times a sum, as a number times it would be.
+std::optional<TermId> TermStore::spreadRoot(const std::vector<TermId> &factors) {
+  if (factors.size() != 2 || isRootOfNumber(factors[0]) == isRootOfNumber(factors[1]))
+    return std::nullopt;
+  const auto [root, other] =
+      isRootOfNumber(factors[0]) ? std::pair(factors[0], factors[1]) : std::pair(factors[1], factors[0]);
+  if (terms_[other].kind != TermKind::Add)
+    return std::nullopt;
+  const LinearSum sum = linear(other);
+  std::vector<TermId> parts{scale(sum.constant, root)};
+  for (const auto &[term, factor] : sum.terms)
+    parts.push_back(scale(factor, multiply(term, root)));
+  return add(parts);
+}
+
 /// What is a double stays; and rounding is the same on both sides of 0.
 std::optional<TermId> TermStore::foldedNearest(TermId argument) {
   const Term &term = terms_[argument];

@@ -176,6 +176,29 @@ TEST(Guess, OneCommandOfFluidNcRefusesAProgramWithNames) {
   EXPECT_EQ(guessed("G38.3 Z[#<_a>] F300\no9 if [#<_a> GT 1]\n(abort, bad)\no9 endif\nM2\n", "check.ngc"), "linuxcnc");
 }
 
+TEST(Guess, SettingsByTheirNumbersAreGrbl) {
+  EXPECT_EQ(guessed("$110=1000\n$111=100\nG38.2 Z-10 F$110\nG0 Z5\nM0\n"), "RS274NGC of grblHAL or FluidNC");
+  EXPECT_EQ(guessed("O1\n$1\nG0 X1\n$2\nG0 X2\nM30\n"),
+            "a program for a machine with several systems (Citizen, Mitsubishi)");
+  EXPECT_EQ(guessed("M3 $0 S1000\nM3 $1 S500\no1 if [1]\no1 endif\nM2\n"), "linuxcnc");
+}
+
+TEST(Guess, GrblByItsNameOrItsFiles) {
+  constexpr std::string_view kGrbl = "RS274NGC of grblHAL or FluidNC";
+  EXPECT_EQ(guessed("( Created by GrblGru )\nG21 G90\nG0 Z25\nG1 Z-1 F100\nM2\n"), kGrbl);
+  EXPECT_EQ(guessed("o1 if [#<_current_tool> EQ 1]\nM61 Q#<_selected_tool>\no1 endif\nM99\n", "tc.macro"), kGrbl);
+  EXPECT_EQ(guessed("O9010\nIF[#1EQ#0]GOTO10\n#3000=1\nN10 G65 P9011 A1.\nM99\n", "probe.macro"), "fanuc-30i");
+}
+
+TEST(Guess, HobbyControls) {
+  constexpr std::string_view kHobby = "G code of a printer or a hobby control (Marlin, Smoothieware, RepRap)";
+  EXPECT_EQ(guessed("G91\nG38.2 Z P0\nG10 L20 P1 Z25.4\nG0 Z2.5\n"), kHobby);
+  EXPECT_EQ(guessed("G28\nM98 P\"/macros/tool.g\"\nM291 P\"Measure\" S2\nG1 X10\n"), kHobby);
+  EXPECT_EQ(guessed("M190 S[bed_temperature]\nM109 S[first_layer_temperature]\nG1 F{speed}\nG1 X5\n"), kHobby);
+  EXPECT_NE(guessed("O1\nSETVN 101[VAC_HOLD]\nSETVN 102[PART_NO]\nSETVN 103[A_B]\n#101=1\nM30\n"), kHobby);
+  EXPECT_EQ(guessed("G38.2 Z-10 F100\n#<_a>=#5063\no1 if [#<_a> LT 0]\no1 endif\nM2\n"), "linuxcnc");
+}
+
 TEST(Guess, OneSettingByItsPathIsFluidNc) {
   EXPECT_EQ(guessed("#<_a>=5\nG53 G0 Z#</probe/rapid_z>\nG53 G38.2 Z-40 F500\nD#<_a>\nM2\n", "set.nc"),
             "RS274NGC of grblHAL or FluidNC");

@@ -1,0 +1,65 @@
+// Printers and hobby controls: messages, heaters, texts in quotes, and names that the control or a slicer replaces.
+#include "language/dialect/line_scanner.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+/// `M118 Probing`, `M104 S200`: messages and heaters of hobby controls and printers.
+void LineScanner::scanPrinterCommand() {
+  static constexpr std::string_view kMessages[] = {"M117 ", "M118 "};
+  static constexpr std::string_view kHeaters[] = {"M104 S", "M109 S", "M140 S", "M190 S"};
+  const auto begins = [&](std::string_view command) { return beginsUpper(rest(), command); };
+  if (std::ranges::any_of(kMessages, begins) && isLetter(peek(5)) && isLetter(peek(6))) {
+    count(TextSignal::PrinterMessage);
+    hasWord_ = true;
+    stop();
+  } else if (std::ranges::any_of(kHeaters, begins) && isDigit(peek(6))) {
+    count(TextSignal::PrinterHeater);
+  }
+}
+
+/// `F$110`, a setting of GRBL as a value; `F{speed}`, an expression or a name in braces.  `${..}` and `{{..}}` are for
+/// programs that make programs.
+bool LineScanner::scanHobbyMark(char mark) {
+  const char before = at_ > 1 ? line_[at_ - 2] : '\0';
+  if (mark == '$' && isLetter(before) && isDigit(peek())) {
+    count(TextSignal::GrblCommand);
+    takeNumber();
+    return true;
+  }
+  if (mark != '{' || before == '$' || !(isLetter(peek()) || peek() == '"'))
+    return false;
+  count(TextSignal::TemplateName);
+  stop();
+  return true;
+}
+
+/// `S[first_layer_temperature]`: macros have variables with `#`, or functions, in the brackets of a word.
+void LineScanner::scanTemplateName() {
+  const bool isWord = at_ > 0 && isLetter(line_[at_ - 1]) && (at_ == 1 || !isLetter(line_[at_ - 2]));
+  const std::size_t end = line_.find(']', at_);
+  const std::string_view name = line_.substr(at_ + 1, end == std::string_view::npos ? 0 : end - at_ - 1);
+  if (isWord && name.size() > 2 && isLetter(name[0]) && name.find('_') != std::string_view::npos &&
+      std::ranges::all_of(name, [](char c) { return isNameCharacter(c); })) {
+    count(TextSignal::TemplateName);
+    at_ = end;
+  }
+  ++at_;
+}
+
+/// `M98 P"file.g"`, where the letter stands at the quotation mark, or a subprogram by the name of its file.
+void LineScanner::scanString() {
+  const std::size_t end = line_.find('"', at_ + 1);
+  const bool isValue = at_ > 0 && isLetter(line_[at_ - 1]) && end != std::string_view::npos;
+  hasWord_ = hasWord_ || isValue;
+  if (isValue)
+    count(TextSignal::PrinterText);
+  else if (hasG65_ || hasM98_)
+    count(TextSignal::CentroidStatement);
+  else
+    hasUnknown_ = true;
+  at_ = end == std::string_view::npos ? line_.size() : end + 1;
+}
+
+} // namespace feedhold

@@ -1,0 +1,22 @@
+// What becomes of a label that several o-words of one program have.
+#pragma once
+
+#include "language/model/model.h"
+
+#include <map>
+
+namespace feedhold {
+
+/// At the head of a construct the interpreter of LinuxCNC stops ("duplicate O-word label", interp_o_word.cc) if it has
+/// met another head of the same program with this label, in this run: one that it has skipped does not count, and
+/// subroutines keep their labels from call to call.
+enum class RepeatedLabel : std::uint8_t { Perhaps, Surely };
+struct LabelRepetition {
+  RepeatedLabel kind;
+  ConstructId other; // with the same label
+};
+
+/// Of the constructs whose label may have been met before.
+std::map<ConstructId, LabelRepetition> repeatedLabels(const ProgramModel &model);
+
+} // namespace feedhold
