@@ -30,7 +30,8 @@ private:
   Verdict decide(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
   std::optional<Verdict> notAsked(const SpaceRule &rule, Place own);
   std::optional<Verdict> missingPremise(std::uint64_t &effort, Proof &proof, const SpaceRule &rule, const Moves &moves);
-  void addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
+  void addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves);
+  std::optional<double> nearest(const SpaceRule &rule, Place own);
   bool keepsAway(const SpaceRule &rule, const Moves &moves);
   struct Try {
     const std::vector<TermId> &conditions;
@@ -47,7 +48,8 @@ private:
   const ProofContext &context_;
   ProofStart &start_;
   const SpaceClaims &space_;
-  std::vector<TermId> signs_; // facts about the inputs that the contract allows
+  std::vector<TermId> signs_;                                    // facts about the inputs that the contract allows
+  std::map<const SpaceRule *, std::map<Place, double>> nearest_; // by block
   std::map<std::pair<std::vector<TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
 };
 
@@ -69,7 +71,7 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
       proved->exactOnly = true;
       proved->why = *std::move(rounded);
     }
-    addMargin(row, rule, moves, runs);
+    addMargin(row, rule, moves);
   }
   if (const Witness *witness = row.verdict.witness())
     row.verdict = runs.located(*witness);
@@ -77,11 +79,11 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
 }
 
 /// How far the sampled runs keep away, if that can be proved; 0 where one reaches the boundary.
-void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs) {
+void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves) {
   constexpr std::uint64_t kCheap = 100'000; // effort of the proof
   if (!rule.spacesFor || row.effort > kCheap)
     return;
-  const std::optional<double> nearest = runs.nearest();
+  const std::optional<double> nearest = this->nearest(rule, row.place);
   if (!nearest)
     return;
   std::optional<double> &margin = row.verdict.proved()->margin;
@@ -97,6 +99,15 @@ void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves 
       return;
     }
   }
+}
+
+/// Of the sampled runs; absent: none of them moves there.
+std::optional<double> SpaceProver::nearest(const SpaceRule &rule, Place own) {
+  auto known = nearest_.find(&rule);
+  if (known == nearest_.end())
+    known = nearest_.emplace(&rule, SpaceRuns::nearest(context_, rule)).first;
+  const auto found = known->second.find(own);
+  return found != known->second.end() ? std::optional(found->second) : std::nullopt;
 }
 
 bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves) {
@@ -280,9 +291,10 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
 /// The movements that a rule speaks of, by block, in the order in which they are met.
 std::vector<std::pair<Place, Moves>> groupsOf(const ProofContext &context, const SpaceRule &rule) {
   std::vector<std::pair<Place, Moves>> groups;
+  std::map<Place, std::size_t> known;
   const auto groupOf = [&](Place own) -> Moves & {
-    const auto known = std::find_if(groups.begin(), groups.end(), [&](const auto &each) { return each.first == own; });
-    return known != groups.end() ? known->second : groups.emplace_back(own, Moves{}).second;
+    const auto [group, isNew] = known.try_emplace(own, groups.size());
+    return isNew ? groups.emplace_back(own, Moves{}).second : groups[group->second].second;
   };
   for (const MoveInstance &move : context.found.moves)
     if (context.start.space().concerns(rule, move))
