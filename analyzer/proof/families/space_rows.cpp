@@ -85,6 +85,7 @@ private:
   const SpaceClaims &space_;
   std::vector<TermId> signs_; // facts about the inputs that the contract allows
   SampledTerms samples_;
+  std::map<TermId, Outcome> soundness_;                                      // of rules: SpaceRule::isSound
   std::map<const SpaceRule *, std::map<Place, double>> nearest_;             // by block
   std::map<std::pair<std::vector<TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
 };
@@ -182,8 +183,11 @@ std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
   for (const UnmodelledCall &call : context_.found.unmodelledCalls)
     if (call.own == own)
       return Verdict::unknown(fmt::format("{}; the call may move the tool", call.why), own);
-  const Query sound = start_.onPath(start_.demands(), rule.isSound);
-  const Outcome soundness = discharge(start_.store(), sound, context_.subject.options.budget);
+  const auto [known, isNew] = soundness_.try_emplace(rule.isSound);
+  if (isNew)
+    known->second =
+        discharge(start_.store(), start_.onPath(start_.demands(), rule.isSound), context_.subject.options.budget);
+  const Outcome &soundness = known->second;
   if (const auto *open = std::get_if<Unknown>(&soundness.answer))
     return Verdict::unknown(open->reason);
   if (!soundness.proved())
@@ -263,7 +267,8 @@ bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Alternative &a
                                         : std::vector{alternative.goal};
   std::vector<Outcome> proofs;
   for (const TermId part : parts) {
-    Outcome outcome = answered(start_.onPath(all, part), budget);
+    const bool holdsAnyway = part == store.yes(); // most premises
+    Outcome outcome = answered(holdsAnyway ? Query{{}, part} : start_.onPath(all, part), budget);
     if (!outcome.proved()) {
       effort += outcome.effort;
       if (isLast && model != nullptr && outcome.counterexample() != nullptr)
