@@ -55,6 +55,7 @@ struct Question {
   Violation::Happened broken;
   /// The run does not show it: whether the claim is broken is decided by an exact run of the program.
   bool isJudgedExactly = false;
+  std::optional<Violation::OfBlock> ofBlock = {};
   /// Where an exact run has no answer, what is promised of the state behind a run may still fail there by far.  Null:
   /// it is not of that kind.  Of the contract.
   const Ensure *promise = nullptr;

@@ -22,11 +22,13 @@ bool breaksByFar(const ProofContext &context, const Ensure &promise, const Given
 }
 
 Violation violationOf(const ProofContext &context, const Question &question) {
-  if (!question.isJudgedExactly)
-    return {question.broken};
-  return {question.broken, [&context, promise = question.promise, row = question.row](const GivenVariables &given) {
-            return context.promises.breaks(given, row) || (promise != nullptr && breaksByFar(context, *promise, given));
-          }};
+  Violation violation{question.broken};
+  violation.ofBlock = question.ofBlock;
+  if (question.isJudgedExactly)
+    violation.breaksExactly = [&context, promise = question.promise, row = question.row](const GivenVariables &given) {
+      return context.promises.breaks(given, row) || (promise != nullptr && breaksByFar(context, *promise, given));
+    };
+  return violation;
 }
 
 Denial denialOf(const Question &question) {
@@ -34,6 +36,7 @@ Denial denialOf(const Question &question) {
                        .goals = {},
                        .broken = question.broken,
                        .isJudgedExactly = question.isJudgedExactly,
+                       .ofBlock = question.ofBlock,
                        .promise = question.promise};
   return {question.row, [claim](const ProofContext &context) { return violationOf(context, claim); }};
 }

@@ -3,39 +3,43 @@
 #include "proof/space/plain_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace feedhold::prove {
 
 namespace {
 
-/// A movement of a run that cuts.  A run does not tell the S of its movements: that is asked of the exact one alone.
-bool breaks(const ProofSubject &subject, const WordLimit &limit, const RecordedMove &recorded,
-            const GivenVariables &given) {
-  const Move<ConcreteValue> &move = recorded.move;
-  if (!isCutting(move.kind))
-    return false;
-  if (limit.address != 'F' || move.feed.vacant)
-    return true;
+/// The blocks in which a run cuts outside of a limit.  A run does not tell the S of its movements: that is asked of the
+/// exact one alone.
+std::vector<Place> brokenIn(const ProofSubject &subject, const WordLimit &limit, const RunResult &run,
+                            const GivenVariables &given) {
   RunOptions options;
   options.variables = given;
   options = startedAsSaid(subject.programs, subject.program, *subject.contracts, std::move(options));
-  const auto bound = [&](ExpressionId end) {
-    return numberOf(subject.programs, subject.program, *subject.contracts, options, end);
+  const auto bound = [&](const std::optional<ExpressionId> &end, double without) {
+    return end ? numberOf(subject.programs, subject.program, *subject.contracts, options, *end) : without;
   };
-  return (limit.range.low && move.feed.number < bound(*limit.range.low)) ||
-         (limit.range.high && move.feed.number > bound(*limit.range.high));
+  const double low = bound(limit.range.low, -HUGE_VAL), high = bound(limit.range.high, HUGE_VAL);
+  std::set<Place> blocks;
+  for (const RecordedMove &recorded : run.moves) {
+    const ConcreteValue &feed = recorded.move.feed;
+    if (isCutting(recorded.move.kind) &&
+        (limit.address != 'F' || feed.vacant || feed.number < low || feed.number > high))
+      blocks.insert(recorded.own);
+  }
+  return {blocks.begin(), blocks.end()};
 }
 
 Violation::Happened cutsAt(const ProofSubject &subject, const WordLimit &limit, Place own) {
   return [&subject, &limit, own](const RunResult &run, const GivenVariables &given) -> std::optional<std::string> {
-    const bool isBroken = std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) {
-      return move.own == own && breaks(subject, limit, move, given);
-    });
-    return isBroken ? std::optional(fmt::format("a cutting move runs with {} outside its limit", limit.address))
-                    : std::nullopt;
+    const std::vector<Place> blocks = brokenIn(subject, limit, run, given);
+    return std::ranges::binary_search(blocks, own)
+               ? std::optional(fmt::format("a cutting move runs with {} outside its limit", limit.address))
+               : std::nullopt;
   };
 }
 
@@ -98,6 +102,11 @@ private:
         .goals = {},
         .broken = cutsAt(subject_, limit_, own),
         .isJudgedExactly = true};
+    question.ofBlock = {{{ObligationKind::Limit, limit_.clause},
+                         [&subject = subject_, &limit = limit_](const RunResult &run, const GivenVariables &given) {
+                           return brokenIn(subject, limit, run, given);
+                         }},
+                        own};
     question.row.id.insert(question.row.id.rfind('.'), fmt::format(".{}", limit_.address));
     return questions_.emplace(own, std::move(question)).first->second;
   }

@@ -2,6 +2,7 @@
 #include "proof/families/families.h"
 #include "proof/families/input_signs.h"
 #include "proof/families/space_runs.h"
+#include "proof/smt/plain_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,45 @@ namespace {
 
 using Moves = std::vector<const MoveInstance *>;
 
+constexpr std::uint64_t kSearchOfClaim = 40'000;
+constexpr std::uint64_t kSearchOfCorners = 4'000; // of a margin
+
+/// Some of the sampled runs, as values of terms: what is not so in one of them need not be searched a proof for.
+class SampledTerms {
+public:
+  explicit SampledTerms(const ProofContext &context) {
+    constexpr std::size_t kMost = 3;
+    const auto &samples = context.witnesses.samples();
+    for (std::size_t i = 0; i < std::min(kMost, samples.size()); ++i)
+      runs_.emplace_back(context.start.store(),
+                         context.witnesses.modelOf(samples[i * (samples.size() - 1) / kMost].given));
+  }
+
+  bool deny(const std::vector<TermId> &conditions, const SpaceQuestion::Alternative &alternative) {
+    return std::ranges::any_of(runs_, [&](smt::PlainValues &run) {
+      for (const auto &[variable, value] : alternative.example)
+        run.set(variable, value);
+      return run.is(alternative.goal, false) &&
+             std::ranges::all_of(conditions, [&](TermId condition) { return run.is(condition, true); });
+    });
+  }
+
+private:
+  std::vector<smt::PlainValues> runs_;
+};
+
+/// A distance that the tool may keep.
+struct MarginGuess {
+  double margin;
+  std::uint64_t search; // that it is worth where corners do not show it; 0: none
+};
+
 /// Answers the questions of all rules.
 class SpaceProver {
 public:
   explicit SpaceProver(const ProofContext &context)
       : context_(context), start_(context.start), space_(context.start.space()),
-        signs_(signsOfInputs(context.start, context.found)) {}
+        signs_(signsOfInputs(context.start, context.found)), samples_(context) {}
 
   /// Of one block and what it calls.
   Obligation row(const SpaceRule &rule, Place own, const Moves &moves);
@@ -30,12 +64,14 @@ private:
   Verdict decide(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
   std::optional<Verdict> notAsked(const SpaceRule &rule, Place own);
   std::optional<Verdict> missingPremise(std::uint64_t &effort, Proof &proof, const SpaceRule &rule, const Moves &moves);
-  void addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
-  bool keepsAway(const SpaceRule &rule, const Moves &moves);
+  void addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves);
+  std::optional<double> nearest(const SpaceRule &rule, Place own);
+  bool keepsAway(const SpaceRule &rule, const Moves &moves, const MarginGuess &guess);
   struct Try {
     const std::vector<TermId> &conditions;
     const SpaceQuestion &question;
     const Budget &budget;
+    std::uint64_t corners; // search for all alternatives but the last: where corners will do, they do so at once
   };
   bool isProved(const Try &asked, std::uint64_t &effort, Proof &proof, std::optional<smt::Model> *model = nullptr);
   bool isProved(const Try &asked, const SpaceQuestion::Alternative &alternative, std::uint64_t &effort, Proof &proof,
@@ -48,6 +84,9 @@ private:
   ProofStart &start_;
   const SpaceClaims &space_;
   std::vector<TermId> signs_; // facts about the inputs that the contract allows
+  SampledTerms samples_;
+  std::map<TermId, Outcome> soundness_;                                      // of rules: SpaceRule::isSound
+  std::map<const SpaceRule *, std::map<Place, double>> nearest_;             // by block
   std::map<std::pair<std::vector<TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
 };
 
@@ -69,19 +108,39 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
       proved->exactOnly = true;
       proved->why = *std::move(rounded);
     }
-    addMargin(row, rule, moves, runs);
+    addMargin(row, rule, moves);
   }
   if (const Witness *witness = row.verdict.witness())
     row.verdict = runs.located(*witness);
   return row;
 }
 
-/// How far the sampled runs keep away, if that can be proved; 0 where one reaches the boundary.
-void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs) {
+/// Of a distance the first two digits.
+double twoDigits(double distance) {
+  const double size = std::pow(10, std::floor(std::log10(distance)) - 1);
+  return std::floor(distance / size + SpaceRuns::kTouches) * size;
+}
+
+/// How far the sampled runs keep away, or a part of it that can be proved; 0 where one reaches the boundary.  Where
+/// coordinates are rounded, a guess as far as they keep is mostly not so; and the larger a guess, the less a part of it
+/// is worth a long search.
+std::vector<MarginGuess> guessesOf(double nearest, double rounding) {
+  constexpr std::uint64_t kShort = 2'000, kLong = 30'000;
+  std::vector<MarginGuess> guesses{{twoDigits(nearest), kShort}};
+  if (nearest - guesses.front().margin < rounding && nearest - rounding > SpaceRuns::kTouches)
+    guesses.push_back({twoDigits(nearest - rounding), kShort});
+  for (const double part : {0.9, 0.8, 0.7, 0.6})
+    guesses.push_back({twoDigits(nearest * part), 0});
+  for (const double part : {0.5, 0.1})
+    guesses.push_back({twoDigits(nearest * part), kLong});
+  return guesses;
+}
+
+void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves) {
   constexpr std::uint64_t kCheap = 100'000; // effort of the proof
   if (!rule.spacesFor || row.effort > kCheap)
     return;
-  const std::optional<double> nearest = runs.nearest();
+  const std::optional<double> nearest = this->nearest(rule, row.place);
   if (!nearest)
     return;
   std::optional<double> &margin = row.verdict.proved()->margin;
@@ -89,24 +148,31 @@ void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves 
     margin = 0;
     return;
   }
-  for (const double part : {1.0, 0.5, 0.1}) {
-    const double size = std::pow(10, std::floor(std::log10(*nearest * part)) - 1);
-    const double guess = std::floor(*nearest * part / size + SpaceRuns::kTouches) * size; // two digits
-    if (keepsAway(space_.withMargin(rule, guess), moves)) {
-      margin = guess;
+  for (const MarginGuess &guess : guessesOf(*nearest, 2 * row.tolerance.value_or(0)))
+    if (keepsAway(rule, moves, guess)) {
+      margin = guess.margin;
       return;
     }
-  }
 }
 
-bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves) {
-  const Budget quick{.search = 30'000, .z3 = 0, .cvc5 = 0};
+/// Of the sampled runs; absent: none of them moves there.
+std::optional<double> SpaceProver::nearest(const SpaceRule &rule, Place own) {
+  auto known = nearest_.find(&rule);
+  if (known == nearest_.end())
+    known = nearest_.emplace(&rule, SpaceRuns::nearest(context_, rule)).first;
+  const auto found = known->second.find(own);
+  return found != known->second.end() ? std::optional(found->second) : std::nullopt;
+}
+
+bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves, const MarginGuess &guess) {
+  const SpaceRule wider = space_.withMargin(rule, guess.margin);
+  const Budget budget{.search = guess.search, .z3 = 0, .cvc5 = 0};
   std::uint64_t effort = 0;
   Proof proof;
   return std::all_of(moves.begin(), moves.end(), [&](const MoveInstance *move) {
-    const std::vector<SpaceQuestion> questions = space_.questions(rule, *move);
+    const std::vector<SpaceQuestion> questions = space_.questions(wider, *move);
     return std::all_of(questions.begin(), questions.end(), [&](const SpaceQuestion &question) {
-      return isProved({move->conditions, question, quick}, effort, proof);
+      return isProved({move->conditions, question, budget, kSearchOfCorners}, effort, proof);
     });
   });
 }
@@ -117,8 +183,11 @@ std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
   for (const UnmodelledCall &call : context_.found.unmodelledCalls)
     if (call.own == own)
       return Verdict::unknown(fmt::format("{}; the call may move the tool", call.why), own);
-  const Query sound = start_.onPath(start_.demands(), rule.isSound);
-  const Outcome soundness = discharge(start_.store(), sound, context_.subject.options.budget);
+  const auto [known, isNew] = soundness_.try_emplace(rule.isSound);
+  if (isNew)
+    known->second =
+        discharge(start_.store(), start_.onPath(start_.demands(), rule.isSound), context_.subject.options.budget);
+  const Outcome &soundness = known->second;
   if (const auto *open = std::get_if<Unknown>(&soundness.answer))
     return Verdict::unknown(open->reason);
   if (!soundness.proved())
@@ -135,7 +204,9 @@ std::optional<Verdict> SpaceProver::missingPremise(std::uint64_t &effort, Proof 
     if (const auto reason = space_.whyNotTold(*move))
       return Verdict::unknown(context_.found.unmodelledAt(move->place).value_or(*reason), move->place);
     for (const auto &[premise, reason] : space_.premises(rule, *move))
-      if (!isProved({move->conditions, {{{{}, premise}}}, context_.budget}, effort, proof))
+      if (!isProved(
+              {move->conditions, {{{{}, premise}}}, context_.budget, std::min(kSearchOfClaim, context_.budget.search)},
+              effort, proof))
         return Verdict::unknown(reason, move->place);
   }
   return std::nullopt;
@@ -150,7 +221,8 @@ Verdict SpaceProver::decide(Obligation &row, const SpaceRule &rule, const Moves 
   for (const MoveInstance *move : moves)
     for (const SpaceQuestion &question : space_.questions(rule, *move)) {
       std::optional<smt::Model> model;
-      if (isProved({move->conditions, question, context_.budget}, row.effort, proved.proof, &model))
+      if (isProved({move->conditions, question, context_.budget, std::min(kSearchOfClaim, context_.budget.search)},
+                   row.effort, proved.proof, &model))
         continue;
       if (model)
         if (auto witness = context_.witnesses.fromModel(*model, runs.violation()))
@@ -180,19 +252,23 @@ bool SpaceProver::isProved(const Try &asked, std::uint64_t &effort, Proof &proof
 
 bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Alternative &alternative, std::uint64_t &effort,
                            Proof &proof, std::optional<smt::Model> *model) {
-  constexpr std::uint64_t kCorners = 40'000; // where corners will do, they do so at once
   std::vector<TermId> all = asked.conditions;
   all.insert(all.end(), alternative.conditions.begin(), alternative.conditions.end());
   all.insert(all.end(), signs_.begin(), signs_.end());
-  const bool isLast = &alternative == &asked.question.alternatives.back();
-  const Budget quick{.search = std::min(asked.budget.search, kCorners), .z3 = 0, .cvc5 = 0};
+  const std::vector<SpaceQuestion::Alternative> &alternatives = asked.question.alternatives;
+  const bool isLast = &alternative == &alternatives.back();
+  if ((isLast && alternatives.size() > 1 && asked.budget.search == 0) || (!isLast && samples_.deny(all, alternative)))
+    return false;
+  const Budget corners{.search = asked.corners, .z3 = 0, .cvc5 = 0};
+  const Budget &budget = isLast && asked.budget.search > 0 ? asked.budget : corners;
   const smt::TermStore &store = start_.store();
   const std::vector<TermId> parts = store[alternative.goal].kind == smt::TermKind::And
                                         ? store[alternative.goal].arguments
                                         : std::vector{alternative.goal};
   std::vector<Outcome> proofs;
   for (const TermId part : parts) {
-    Outcome outcome = answered(start_.onPath(all, part), isLast ? asked.budget : quick);
+    const bool holdsAnyway = part == store.yes(); // most premises
+    Outcome outcome = answered(holdsAnyway ? Query{{}, part} : start_.onPath(all, part), budget);
     if (!outcome.proved()) {
       effort += outcome.effort;
       if (isLast && model != nullptr && outcome.counterexample() != nullptr)
@@ -280,9 +356,10 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
 /// The movements that a rule speaks of, by block, in the order in which they are met.
 std::vector<std::pair<Place, Moves>> groupsOf(const ProofContext &context, const SpaceRule &rule) {
   std::vector<std::pair<Place, Moves>> groups;
+  std::map<Place, std::size_t> known;
   const auto groupOf = [&](Place own) -> Moves & {
-    const auto known = std::find_if(groups.begin(), groups.end(), [&](const auto &each) { return each.first == own; });
-    return known != groups.end() ? known->second : groups.emplace_back(own, Moves{}).second;
+    const auto [group, isNew] = known.try_emplace(own, groups.size());
+    return isNew ? groups.emplace_back(own, Moves{}).second : groups[group->second].second;
   };
   for (const MoveInstance &move : context.found.moves)
     if (context.start.space().concerns(rule, move))

@@ -82,6 +82,20 @@ double SpaceRuns::leastDepth(const std::vector<RecordedMove> &moves) const {
   return std::max(kRounding, kOfSize * largestNumber(moves)) + tolerance().value_or(0);
 }
 
+/// The same as gougeIn(), for all blocks.
+std::vector<Place> SpaceRuns::gougedBlocks(const RunResult &run, const GivenVariables &given) const {
+  geometry::BlockDepths gouges = geometry::BlockDepths::ofGouges(claimOf(rule_), rule_.region);
+  gouges.add(spaceOf(context_, given), run.moves);
+  std::vector<Place> blocks;
+  if (gouges.depths().empty())
+    return blocks;
+  const double least = leastDepth(run.moves);
+  for (const auto &[block, depth] : gouges.depths())
+    if (depth >= least)
+      blocks.push_back(block);
+  return blocks;
+}
+
 Violation SpaceRuns::violation() const {
   const auto happened = [runs = *this](const RunResult &run, const GivenVariables &given) {
     const auto gouge = runs.gougeIn(run, given);
@@ -90,13 +104,18 @@ Violation SpaceRuns::violation() const {
     return std::optional(textOf(runs.rule_, *gouge, run.moves[gouge->move], runs.context_.subject.dialect().machine) +
                          (run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : ""));
   };
-  if (tolerance())
-    return happened;
-  return {happened, [runs = *this](const GivenVariables &given) {
-            const WitnessSearch &witnesses = runs.context_.witnesses;
-            const RunResult run = witnesses.runOf(given, WordRounding::None);
-            return runs.gougeIn(run, given) && witnesses.agreesExactly(given, run) != Agreement::Different;
-          }};
+  Violation violation{happened};
+  const auto gouged = [runs = *this](const RunResult &run, const GivenVariables &given) {
+    return runs.gougedBlocks(run, given);
+  };
+  violation.ofBlock = {{{rule_.kind, rule_.clause}, gouged}, own_};
+  if (!tolerance())
+    violation.breaksExactly = [runs = *this](const GivenVariables &given) {
+      const WitnessSearch &witnesses = runs.context_.witnesses;
+      const RunResult run = witnesses.runOf(given, WordRounding::None);
+      return runs.gougeIn(run, given) && witnesses.agreesExactly(given, run) != Agreement::Different;
+    };
+  return violation;
 }
 
 Witness SpaceRuns::located(Witness witness) const {
@@ -106,28 +125,25 @@ Witness SpaceRuns::located(Witness witness) const {
   return witness;
 }
 
-std::optional<double> SpaceRuns::nearest() const {
-  std::optional<double> nearest;
-  for (const WitnessSearch::Sample &sample : context_.witnesses.samples()) {
-    const auto margin =
-        geometry::smallestMargin(spaceOf(context_, sample.given), claimOf(rule_), rule_.region, sample.result.moves,
-                                 [this](const RecordedMove &move) { return move.own == own_; });
-    if (margin && (!nearest || *margin < *nearest))
-      nearest = margin;
-    if (nearest && *nearest < kTouches)
-      break;
-  }
-  return nearest;
+std::map<Place, double> SpaceRuns::nearest(const ProofContext &context, const SpaceRule &rule) {
+  geometry::BlockDepths depths = geometry::BlockDepths::ofMargins(claimOf(rule), rule.region);
+  for (const WitnessSearch::Sample &sample : context.witnesses.samples())
+    depths.add(spaceOf(context, sample.given), sample.result.moves);
+  std::map<Place, double> margins;
+  for (const auto &[block, depth] : depths.depths())
+    margins.emplace(block, std::max(0.0, -depth));
+  return margins;
 }
 
 std::optional<std::string> SpaceRuns::roundedAway() const {
   constexpr std::size_t kMostLooked = 20;
   const auto &samples = context_.witnesses.samples();
-  for (std::size_t i = 0; i < samples.size() && i < kMostLooked; ++i)
-    if (const auto gouge = gougeIn(samples[i].result, samples[i].given))
-      return fmt::format(
-          "rounding of words to the least increment adds up: {}",
-          textOf(rule_, *gouge, samples[i].result.moves[gouge->move], context_.subject.dialect().machine));
+  for (const std::size_t i : context_.witnesses.mayBreak(violation()))
+    if (i < kMostLooked)
+      if (const auto gouge = gougeIn(samples[i].result, samples[i].given))
+        return fmt::format(
+            "rounding of words to the least increment adds up: {}",
+            textOf(rule_, *gouge, samples[i].result.moves[gouge->move], context_.subject.dialect().machine));
   return std::nullopt;
 }
 

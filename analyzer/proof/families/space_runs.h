@@ -17,9 +17,9 @@ public:
   Violation violation() const;
   /// The same run as the witness of a refuted claim.
   Witness located(Witness witness) const;
-  /// How near the sampled runs come; absent: none of them moves there.
+  /// How near the sampled runs come in each block; absent: none of them moves there.
   static constexpr double kTouches = 1e-6; // nearer than that is no distance
-  std::optional<double> nearest() const;
+  static std::map<Place, double> nearest(const ProofContext &context, const SpaceRule &rule);
   /// What the rounded words of a sampled run lead to, where that is further than proofs over exact numbers know.
   std::optional<std::string> roundedAway() const;
 
@@ -27,6 +27,7 @@ public:
   std::optional<double> tolerance() const;
 
 private:
+  std::vector<Place> gougedBlocks(const RunResult &run, const GivenVariables &given) const;
   double leastDepth(const std::vector<RecordedMove> &moves) const;
 
   const ProofContext &context_;

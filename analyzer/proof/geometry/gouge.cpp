@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace feedhold::geometry {
 
@@ -17,8 +18,7 @@ constexpr double kTouch = 1e-7;
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }
 
 bool isFollowed(const RecordedMove &recorded) {
-  return recorded.isOfTool && recorded.move.kind != MoveKind::Unmodelled && recorded.move.kind != MoveKind::Dwell &&
-         std::isfinite(GougePath(recorded).length());
+  return recorded.isOfTool && recorded.move.kind != MoveKind::Unmodelled && recorded.move.kind != MoveKind::Dwell;
 }
 
 /// Where no tool is known, its point.
@@ -77,14 +77,13 @@ std::optional<Deepest> insideOnPath(const PlainShape &part, const ToolReach &rea
   return deepestOnPath(path, {depth, course, floor, stepOf(reach.tool())});
 }
 
-std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach &reach, const RecordedMove &recorded,
-                                      double floor) {
-  const GougePath path(recorded);
+std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach &reach, MoveKind kind,
+                                      const GougePath &path, double floor) {
   std::optional<Deepest> worst;
   for (const PlainShape &part : region.parts) {
     const double least = worst ? worst->depth : floor;
-    const auto found = recorded.move.kind == MoveKind::Rapid ? insideInBox(part, reach, path, least)
-                                                             : insideOnPath(part, reach, path, least);
+    const auto found =
+        kind == MoveKind::Rapid ? insideInBox(part, reach, path, least) : insideOnPath(part, reach, path, least);
     if (found)
       worst = found;
   }
@@ -98,8 +97,7 @@ public:
   explicit ClearanceWatch(double height) : height_(height) {}
 
   /// How deep a move is too low; absent: it is free wherever it is.
-  std::optional<Deepest> follow(const RecordedMove &recorded) {
-    const GougePath path(recorded);
+  std::optional<Deepest> follow(const RecordedMove &recorded, const GougePath &path) {
     const Point<double> &start = path.start();
     const Point<double> &end = path.end();
     if (!hole_ || !isSamePlace(*hole_, start))
@@ -143,22 +141,13 @@ public:
 
   std::optional<Gouge> deepest(std::span<const RecordedMove> moves) {
     std::optional<Gouge> worst;
-    const auto look = [&](const RecordedMove &move, std::size_t index) {
-      const auto found = depthOf(move, worst ? worst->depth + kDeeper : floor_);
-      if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
-        worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt, reach_.beside()};
-    };
     for (std::size_t i = 0; i < moves.size(); ++i) {
       if (!concerns(moves[i]))
         continue;
-      if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
-        look(inSpace(moves[i], 0), i);
-      else
-        for (const RecordedMove &move : movesOfTip(moves[i]))
-          look(space_.tip                      ? inSpace(move, tool_.radius)
-               : claim_ == SpaceClaim::Machine ? inMachine(move)
-                                               : ofTip(move),
-               i);
+      forEachOfClaim(moves[i], [&](const RecordedMove &move) {
+        if (const auto found = deeperThan(worst ? worst->depth + kDeeper : floor_, move))
+          worst = Gouge{i, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt, reach_.beside()};
+      });
     }
     if (worst && space_.tip)
       worst->at = fromHalfPlane(worst->at, *space_.tip, claim_ == SpaceClaim::Travel ? 0 : tool_.radius);
@@ -166,38 +155,72 @@ public:
       worst->at[axis] += moves[worst->move].zero[axis] - moves[worst->move].machineZero[axis];
     return worst;
   }
+  /// What is deeper than is known of its block.
+  void deepen(std::map<Place, double> &depths, std::span<const RecordedMove> moves) {
+    for (const RecordedMove &recorded : moves) {
+      const auto known = depths.find(recorded.own);
+      double floor = known != depths.end() ? known->second + kDeeper : floor_;
+      forEachOfClaim(recorded, [&](const RecordedMove &move) {
+        if (const auto found = deeperThan(floor, move)) {
+          depths.insert_or_assign(recorded.own, found->depth);
+          floor = found->depth + kDeeper;
+        }
+      });
+    }
+  }
 
 private:
+  /// The moves that the claim is about, where it means them.
+  template <typename Look> void forEachOfClaim(const RecordedMove &recorded, const Look &look) const {
+    if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
+      return space_.tip ? look(inHalfPlane(recorded, *space_.tip, 0)) : look(recorded);
+    if (recorded.centre.empty())
+      return lookAtPlaced(recorded, look);
+    for (const RecordedMove &move : movesOfTip(recorded))
+      lookAtPlaced(move, look);
+  }
+  template <typename Look> void lookAtPlaced(const RecordedMove &move, const Look &look) const {
+    if (space_.tip)
+      return look(inHalfPlane(move, *space_.tip, tool_.radius)); // the centre of the nose is meant
+    if (claim_ == SpaceClaim::Machine)
+      return look(inMachine(move));
+    return space_.knowsLengths ? look(ofTip(move)) : look(move);
+  }
+  std::optional<Deepest> deeperThan(double floor, const RecordedMove &move) {
+    const auto found = depthOf(move, floor);
+    return found && found->depth > floor ? found : std::nullopt;
+  }
   /// Whether rapid moves are free below the clearance height depends on those before them.
   bool concerns(const RecordedMove &move) const { return claim_ == SpaceClaim::Clearance || !filter_ || filter_(move); }
   std::optional<Deepest> depthOf(const RecordedMove &recorded, double floor) {
-    if (!isFollowed(recorded)) {
+    const std::optional<GougePath> path = isFollowed(recorded) ? std::optional(GougePath(recorded)) : std::nullopt;
+    if (!path || !std::isfinite(path->length())) {
       if (recorded.move.kind != MoveKind::Dwell)
         clearance_.forget();
       return std::nullopt;
     }
     const auto tooLow =
-        space_.clearance && claim_ == SpaceClaim::Clearance ? clearance_.follow(recorded) : std::nullopt;
+        space_.clearance && claim_ == SpaceClaim::Clearance ? clearance_.follow(recorded, *path) : std::nullopt;
     if (filter_ && !filter_(recorded))
       return std::nullopt;
     switch (claim_) {
     case SpaceClaim::KeepIn:
       if (!isCutting(recorded.move.kind))
         return std::nullopt;
-      return outsideOnPath(space_.keepIn[region_], reach_, GougePath(recorded), floor);
-    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], reach_, recorded, floor);
+      return outsideOnPath(space_.keepIn[region_], reach_, *path, floor);
+    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], reach_, recorded.move.kind, *path, floor);
     case SpaceClaim::Clearance: return tooLow;
-    case SpaceClaim::Travel: return outsideOfLimits(space_.travel, recorded, floor);
-    case SpaceClaim::Machine: return outsideOfLimits(space_.machine, recorded, floor);
+    case SpaceClaim::Travel: return outsideOfLimits(space_.travel, *path, floor);
+    case SpaceClaim::Machine: return outsideOfLimits(space_.machine, *path, floor);
     }
     FEEDHOLD_UNREACHABLE("the switch names every claim");
   }
-  static std::optional<Deepest> outsideOfLimits(const std::optional<Box<double>> &limits, const RecordedMove &recorded,
+  static std::optional<Deepest> outsideOfLimits(const std::optional<Box<double>> &limits, const GougePath &path,
                                                 double floor) {
     if (!limits)
       return std::nullopt;
     const Depth depth = [&](const Point<double> &point) { return depthOutside(*limits, point); };
-    return deepestOnPath(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
+    return deepestOnPath(path, {depth, Course::SingleAxes, floor, 0});
   }
   bool isOfTip() const { return claim_ != SpaceClaim::Machine && claim_ != SpaceClaim::Travel; }
   /// The tip is lower than its coordinates by the length of the tool.
@@ -206,18 +229,12 @@ private:
   }
   /// Where the contract tells lengths, as G43 takes them.
   RecordedMove ofTip(RecordedMove move) const {
-    if (!space_.knowsLengths)
-      return move;
     move.isOfTool = move.isOfToolButForLength && move.length != LengthInForce::Subtracted;
     if (isBelow(move)) {
       move.zero[2] -= space_.longest.value_or(0);
       move.isOfTool = move.isOfTool && space_.longest;
     }
     return move;
-  }
-  /// `radius`: of the nose of a lathe, whose centre is meant.
-  RecordedMove inSpace(const RecordedMove &move, double radius) const {
-    return space_.tip ? inHalfPlane(move, *space_.tip, radius) : move;
   }
   /// Machine coordinates are known whatever the length of the tool.
   static RecordedMove inMachine(RecordedMove move) {
@@ -235,6 +252,21 @@ private:
   double floor_;
   ClearanceWatch clearance_;
 };
+
+/// Of one block, and in the same place; where the tool leaves the programmed path, that is not looked at.  Work offsets
+/// are inputs of each program, and only one claim asks for them.
+bool isSameFor(SpaceClaim claim, const RecordedMove &a, const RecordedMove &b) {
+  const auto isSame = [](const ConcreteValue &left, const ConcreteValue &right) { return left.number == right.number; };
+  const auto parts = [](const RecordedMove &move) {
+    return std::tuple(move.own, move.move.kind, move.move.turns, move.zero, move.isOfTool, move.isOfToolButForLength,
+                      move.length, move.isOfAxes, move.move.plane.first, move.move.plane.second,
+                      move.move.plane.normal);
+  };
+  return parts(a) == parts(b) && a.centre.empty() && b.centre.empty() &&
+         (claim != SpaceClaim::Machine || a.machineZero == b.machineZero) &&
+         std::ranges::equal(a.move.start, b.move.start, isSame) && std::ranges::equal(a.move.end, b.move.end, isSame) &&
+         isSame(a.move.firstCentre, b.move.firstCentre) && isSame(a.move.secondCentre, b.move.secondCentre);
+}
 
 } // namespace
 
@@ -258,6 +290,18 @@ std::optional<double> smallestMargin(const PlainSpace &space, SpaceClaim claim, 
                                      std::span<const RecordedMove> moves, const MoveFilter &filter) {
   const auto nearest = Run(space, claim, region, filter, kNoDepth).deepest(moves);
   return nearest ? std::optional(std::max(0.0, -nearest->depth)) : std::nullopt;
+}
+
+BlockDepths BlockDepths::ofGouges(SpaceClaim claim, std::size_t region) { return {claim, region, kTouch}; }
+
+BlockDepths BlockDepths::ofMargins(SpaceClaim claim, std::size_t region) { return {claim, region, kNoDepth}; }
+
+void BlockDepths::add(const PlainSpace &space, std::span<const RecordedMove> moves) {
+  const auto isSame = [&](const RecordedMove &a, const RecordedMove &b) { return isSameFor(claim_, a, b); };
+  if (!space_ || !std::ranges::equal(moves, moves_, isSame) || !(space == *space_))
+    Run(space, claim_, region_, {}, floor_).deepen(depths_, moves);
+  space_ = &space;
+  moves_ = moves;
 }
 
 Point<double> pointOf(const RecordedMove &move, double share) { return GougePath(move).at(share); }

@@ -3,6 +3,7 @@
 
 #include "proof/geometry/half_plane.h"
 
+#include <map>
 #include <span>
 
 namespace feedhold::geometry {
@@ -13,6 +14,7 @@ using PlainShape = Shape<double, bool>;
 struct PlainRegion {
   std::string name;
   std::vector<PlainShape> parts; // together one region
+  friend bool operator==(const PlainRegion &, const PlainRegion &) = default;
 };
 struct PlainSpace {
   std::optional<TipDirection> tip = {}; // of a lathe, whose shapes are those of half_plane.h
@@ -26,6 +28,7 @@ struct PlainSpace {
   bool knowsLengths = false;
   std::optional<double> longest = {}; // of them, with which the tip is lowest
   double corner = 0;                  // how far from its path the tool may be, on any side
+  friend bool operator==(const PlainSpace &, const PlainSpace &) = default;
 };
 
 enum class SpaceClaim : std::uint8_t {
@@ -60,6 +63,30 @@ std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std
 /// How far the tool keeps from what it must not touch, where the run never does; absent: nothing bounds it.
 std::optional<double> smallestMargin(const PlainSpace &space, SpaceClaim claim, std::size_t region,
                                      std::span<const RecordedMove> moves, const MoveFilter &filter = {});
+
+/// How deep runs break one claim in each block (RecordedMove::own), as deepestGouge would find it for each by itself.
+class BlockDepths {
+public:
+  /// For gouges.
+  static BlockDepths ofGouges(SpaceClaim claim, std::size_t region);
+  /// For margins, which are depths below 0: however far away the tool keeps.
+  static BlockDepths ofMargins(SpaceClaim claim, std::size_t region);
+
+  /// The moves of one more run, in one walk.  It adds nothing where all is as in the run before, which still exists: a
+  /// program without inputs makes the same moves in each.
+  void add(const PlainSpace &space, std::span<const RecordedMove> moves);
+  const std::map<Place, double> &depths() const { return depths_; }
+
+private:
+  BlockDepths(SpaceClaim claim, std::size_t region, double floor) : claim_(claim), region_(region), floor_(floor) {}
+
+  SpaceClaim claim_;
+  std::size_t region_;
+  double floor_;
+  std::map<Place, double> depths_;
+  const PlainSpace *space_ = nullptr; // of the run before
+  std::span<const RecordedMove> moves_ = {};
+};
 
 /// Where the point of the tool is at a share of a move, 0..1; rapid moves straight.
 Point<double> pointOf(const RecordedMove &move, double share);

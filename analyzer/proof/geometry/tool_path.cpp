@@ -2,6 +2,8 @@
 
 #include "proof/geometry/slope.h"
 
+#include <cmath>
+
 namespace feedhold::geometry {
 
 using smt::Number;
@@ -9,6 +11,17 @@ using smt::Number;
 namespace {
 
 std::size_t in(Axis axis) { return indexOf(axis); }
+
+/// A number not below the root of this one, and no more than a millionth above it, as far as doubles tell; absent:
+/// there is none.
+std::optional<Number> aboveRoot(const Number &square) {
+  constexpr double kParts = 1 << 20;
+  const double root = std::sqrt(square.toDouble());
+  if (!std::isfinite(root) || root * kParts > 1e15)
+    return std::nullopt;
+  const Number above = Number::fromDouble((std::floor(root * kParts) + 1) / kParts);
+  return above * above < square ? std::nullopt : std::optional(above);
+}
 
 } // namespace
 
@@ -232,15 +245,25 @@ TermPoint ToolPath::atCentre(TermPoint point) const {
 /// The box around the full circle; of an arc whose ends are not as far from the centre, around the larger one.
 ToolPath::Hull ToolPath::arcHull() {
   const Spokes ends = spokes();
-  const TermId atStart = lengthOf(store_, ends.startFirst, ends.startSecond);
-  const TermId atEnd = lengthOf(store_, ends.endFirst, ends.endSecond);
+  const auto radiusOf = [&](TermId first, TermId second) {
+    const smt::Term &radicand = store_[square(first, second)];
+    if (radicand.kind == smt::TermKind::Number && !exactSquareRoot(radicand.number))
+      if (const std::optional<Number> above = aboveRoot(radicand.number)) // a larger box will do, and folds
+        return store_.number(*above);
+    return lengthOf(store_, first, second);
+  };
+  const TermId atStart = radiusOf(ends.startFirst, ends.startSecond);
+  const TermId atEnd = radiusOf(ends.endFirst, ends.endSecond);
   Hull hull;
   TermId radius = atStart;
-  if (atStart != atEnd) {
+  if (const TermId isLarger = store_.less(atStart, atEnd); isLarger == store_.yes())
+    radius = atEnd;
+  else if (isLarger != store_.no()) {
     radius = freshVariable(store_, "radius");
     hull.conditions.push_back(
         store_.logicalAnd(store_.lessOrEqual(atStart, radius), store_.lessOrEqual(atEnd, radius)));
     hull.conditions.push_back(store_.logicalOr(store_.equal(radius, atStart), store_.equal(radius, atEnd)));
+    hull.example.emplace_back(radius, store_.ite(store_.less(atStart, atEnd), atEnd, atStart));
   }
   const std::size_t normal = in(move_.plane.normal);
   std::vector<TermId> levels{move_.start[normal]};

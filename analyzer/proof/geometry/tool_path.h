@@ -42,6 +42,7 @@ public:
   struct Hull {
     std::vector<TermPoint> corners;
     std::vector<TermId> conditions;
+    std::vector<std::pair<TermId, TermId>> example = {}; // values that the conditions allow, by variable
   };
   Hull hull();
   /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever

@@ -21,7 +21,12 @@ std::optional<Witness> denied(const WitnessSearch &witnesses, const Runs &runs, 
 /// all of them again would cost more than the proofs.
 std::optional<Witness> denied(const WitnessSearch &witnesses, const Violation &violation) {
   auto witness = denied(witnesses, witnesses.replays(), violation);
-  return witness || violation.breaksExactly ? witness : denied(witnesses, witnesses.samples(), violation);
+  if (witness || violation.breaksExactly)
+    return witness;
+  for (const std::size_t i : witnesses.mayBreak(violation))
+    if (auto found = witnesses.shown(witnesses.samples()[i], violation))
+      return found;
+  return std::nullopt;
 }
 
 } // namespace

@@ -256,6 +256,7 @@ void WitnessSearch::keepRun(GivenVariables given) {
   RunResult result = run(programs_, entry_, options);
   smt::spend(kStepsOfInstruction * result.steps);
   samples_.push_back({std::move(given), std::move(result)});
+  breaking_.clear(); // it does not know this run
 }
 
 } // namespace feedhold::prove

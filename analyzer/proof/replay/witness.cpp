@@ -9,6 +9,7 @@
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace feedhold::prove {
 
@@ -52,6 +53,18 @@ bool dependsOnControl(const smt::Model &model) {
   return std::ranges::any_of(model, [](const auto &named) {
     return named.first.starts_with(kUnknownTruth) || named.first.starts_with(kUnknownSetting);
   });
+}
+
+/// By block.
+std::map<Place, std::vector<std::size_t>> samplesThatBreak(const BlockClaims &claims,
+                                                           const std::vector<WitnessSearch::Sample> &samples) {
+  std::map<Place, std::vector<std::size_t>> breaking;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    smt::spend(kStepsOfLook + kStepsOfLook * samples[i].result.moves.size());
+    for (const Place block : claims.brokenIn(samples[i].result, samples[i].given))
+      breaking[block].push_back(i);
+  }
+  return breaking;
 }
 
 } // namespace
@@ -212,14 +225,32 @@ std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violat
   return showsNothing ? std::nullopt : violation.happened(run.result, run.given);
 }
 
+/// All runs are looked at once for all blocks: a claim for each block and each clause would otherwise look at all moves
+/// of all runs again.
+std::vector<std::size_t> WitnessSearch::mayBreak(const Violation &violation) const {
+  if (!violation.ofBlock) {
+    std::vector<std::size_t> all(samples_.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  const auto &[claims, own] = *violation.ofBlock;
+  auto known = breaking_.find(claims.clause);
+  if (known == breaking_.end())
+    known = breaking_.emplace(claims.clause, samplesThatBreak(claims, samples_)).first;
+  const auto found = known->second.find(own);
+  return found != known->second.end() ? found->second : std::vector<std::size_t>();
+}
+
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
   std::optional<Witness> nearest;
   unsigned distance = 0;
   std::size_t exact = 0, inexact = 0;
-  for (std::size_t i = 0; i < samples_.size() && exact < kMostBreaking && inexact < kMostInexact; ++i) {
-    const Sample &sample = samples_[i];
-    if (smt::areStepsUsedUp())
+  if (smt::areStepsUsedUp())
+    return nearest;
+  for (const std::size_t i : mayBreak(violation)) {
+    if (exact >= kMostBreaking || inexact >= kMostInexact || smt::areStepsUsedUp())
       break;
+    const Sample &sample = samples_[i];
     smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
     auto happened = broken(sample, violation);
     if (!happened)

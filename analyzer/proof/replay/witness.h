@@ -19,6 +19,12 @@
 
 namespace feedhold::prove {
 
+/// Of claims that one clause makes of each block: all blocks of which a run breaks the claim, found in one look.
+struct BlockClaims {
+  std::pair<ObligationKind, ClauseId> clause;
+  std::function<std::vector<Place>(const RunResult &, const GivenVariables &)> brokenIn;
+};
+
 /// Whether a run breaks a claim.
 struct Violation {
   using Happened = std::function<std::optional<std::string>(const RunResult &, const GivenVariables &)>;
@@ -35,6 +41,12 @@ struct Violation {
   Happened happened;
   /// Where the run alone does not tell: whether it does, in exact numbers.
   std::function<bool(const GivenVariables &)> breaksExactly;
+  /// The claim is one of these, and of which block: then nothing happened in the other runs.
+  struct OfBlock {
+    BlockClaims claims;
+    Place own;
+  };
+  std::optional<OfBlock> ofBlock = {};
 };
 
 class WitnessSearch {
@@ -50,6 +62,7 @@ public:
     place_ = std::move(place);
     open_ = std::move(open);
     spaces_.clear();
+    breaking_.clear();
   }
   /// Exact runs, if they are not those of the program without a contract.
   void followExactly(ExactRuns::Explore explore) { exactRuns_ = std::make_shared<ExactRuns>(std::move(explore)); }
@@ -83,6 +96,8 @@ public:
   std::vector<GivenVariables> smallInputs() const;
   /// Among the sampled runs, the one nearest to a call that a shop makes.
   std::optional<Witness> amongSamples(const Violation &violation) const;
+  /// The sampled runs that may break the claim, in their order: all but those in which nothing happened.
+  std::vector<std::size_t> mayBreak(const Violation &violation) const;
   /// Among those of sampleDecimals(), of which more are followed exactly than amongSamples() does.
   std::optional<Witness> amongDecimals(const Violation &violation) const;
   /// The inputs that a model of the solver names, then made as plain as they can be, and as near to a likely call.
@@ -174,6 +189,9 @@ private:
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
   mutable std::map<std::pair<std::uint32_t, smt::Number>, bool> canBeTyped_;
   mutable std::map<InputsKey, geometry::PlainSpace> spaces_;
+  /// Of the clauses that were asked for: by block, the samples that break the claim.
+  using BreakingSamples = std::map<Place, std::vector<std::size_t>>;
+  mutable std::map<std::pair<ObligationKind, ClauseId>, BreakingSamples> breaking_;
   smt::Model others_; // inputs that satisfy what they have to
   std::set<std::string> promised_;
 };

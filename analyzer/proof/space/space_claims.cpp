@@ -283,7 +283,8 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   for (const FreeSpace &space : rule.spaces) {
     for (const geometry::Formula &bound : space.bounds) {
       const std::set<TermId> corners = atCorners(bound);
-      SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
+      SpaceQuestion &question =
+          questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners), hull.example}}});
       if (const auto around = aroundOf(space, path, move); around && &bound == &space.bounds.front())
         question.alternatives.push_back({{}, *around});
       if (!path.isHull() && !isOfLevel(bound))
@@ -298,11 +299,11 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     }
     const std::vector<TermId> simple = simpleAlternatives(space, hull.corners);
     for (const TermId alternative : simple)
-      question.alternatives.push_back({hull.conditions, alternative});
+      question.alternatives.push_back({hull.conditions, alternative, hull.example});
     if (const auto around = aroundOf(space, path, move))
       question.alternatives.push_back({{}, *around});
     if (simple.size() > 1) // one or the other, as the case may be
-      question.alternatives.push_back({hull.conditions, store_.logicalOr(simple)});
+      question.alternatives.push_back({hull.conditions, store_.logicalOr(simple), hull.example});
     if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
       for (const TermId level : std::set{move.start[2], move.end[2]}) {
         const geometry::PointOnPath any = path.anyPoint();

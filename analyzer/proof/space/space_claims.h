@@ -34,6 +34,7 @@ struct SpaceQuestion {
   struct Alternative {
     std::vector<smt::TermId> conditions; // of new variables of the goal
     smt::TermId goal;
+    std::vector<std::pair<smt::TermId, smt::TermId>> example = {}; // values that they allow, by variable
   };
   std::vector<Alternative> alternatives;
 };
