@@ -43,12 +43,9 @@ constexpr std::array kPlanet = {
     LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kGrbl = {
-    LanguageHint{TextSignal::OWord, 30},
-    LanguageHint{TextSignal::AngleName, 30},
-    LanguageHint{TextSignal::GrblCommand, 70},
-    LanguageHint{TextSignal::GrblComment, 40},
-    LanguageHint{TextSignal::GrblFile, 70},
-    LanguageHint{TextSignal::MacroBranch, -60},
+    LanguageHint{TextSignal::OWord, 30},       LanguageHint{TextSignal::AngleName, 30},
+    LanguageHint{TextSignal::GrblCommand, 70}, LanguageHint{TextSignal::GrblComment, 40},
+    LanguageHint{TextSignal::GrblFile, 70},    LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},

@@ -88,8 +88,9 @@ private:
         (kindOf(head.construct) == OWordKind::Do && kindOf(other.construct) == OWordKind::Do))
       return std::nullopt;
     const auto isLoop = [this](const Around &each) { return kindOf(each.construct) != OWordKind::If; };
-    const bool comesAgain =
-        model_.programs[headOf(head.construct).program].name.isSubroutine || std::any_of(here.begin(), parted, isLoop);
+    const ProgramId program = headOf(head.construct).program;
+    const bool isCalled = program != ProgramId(0) || model_.programs[program].returns;
+    const bool comesAgain = isCalled || std::any_of(here.begin(), parted, isLoop);
     const bool isInOtherBranch =
         common < here.size() && common < there.size() && here[common].construct == there[common].construct;
     const bool isLater = headWordOf(other.construct) < headWordOf(head.construct);

@@ -9,7 +9,7 @@ namespace feedhold {
 
 /// At the head of a construct the interpreter of LinuxCNC stops ("duplicate O-word label", interp_o_word.cc) if it has
 /// met another head of the same program with this label, in this run: one that it has skipped does not count, and
-/// subroutines keep their labels from call to call.
+/// programs that are called keep their labels from call to call.
 enum class RepeatedLabel : std::uint8_t { Perhaps, Surely };
 struct LabelRepetition {
   RepeatedLabel kind;

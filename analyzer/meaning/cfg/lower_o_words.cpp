@@ -9,6 +9,7 @@ namespace feedhold {
 namespace {
 
 constexpr std::string_view kUnpaired = "an o-word without its partner";
+constexpr std::string_view kLeftRepeat = "a repeat that a return may have left in an earlier call";
 constexpr std::string_view kRepeated = "an o-word whose label may have been used before";
 
 } // namespace
@@ -45,7 +46,17 @@ void Lowering::oWordStatement(StatementId id, const OWord &oWord) {
   }
 }
 
+/// The interpreter keeps the counter by the label: the next call goes on with what is left of it.
+bool Lowering::isLeftByReturn(const Construct &construct) const {
+  for (OWordId each = construct.parts.front(); each < construct.parts.back(); each = each.next())
+    if (model_.oWords[each].kind == OWordKind::Return)
+      return true;
+  return false;
+}
+
 void Lowering::headOfConstruct(ConstructId id) {
+  if (model_.constructs[id].kind == OWordKind::Repeat && isLeftByReturn(model_.constructs[id]))
+    emit(Havoc{kLeftRepeat});
   const auto repeated = repeatedLabels_.find(id);
   if (repeated == repeatedLabels_.end())
     return;

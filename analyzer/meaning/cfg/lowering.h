@@ -85,6 +85,7 @@ private:
   struct ConstructNodes;
   void oWordStatement(StatementId id, const OWord &oWord);
   void headOfConstruct(ConstructId id);
+  bool isLeftByReturn(const Construct &construct) const;
   void partOfConstruct(OWordKind kind, ConstructId id, std::optional<ExpressionId> value);
   void nextBranch(ConstructNodes &nodes, OWordKind kind, std::optional<ExpressionId> value);
   void startRepeat(ConstructNodes &nodes, std::optional<ExpressionId> times);

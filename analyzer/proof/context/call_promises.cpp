@@ -135,6 +135,9 @@ bool canStandForText(const Contract &contract) {
   return contract.isSound && !contract.cyclic && (!contract.ensures.empty() || !contract.assigns.empty());
 }
 
+/// Which offsets a text uses that is not there, and what has to hold of them, is not known.
+bool speaksOfOffsets(const Contract &contract) { return contract.machine || !contract.lengths.empty(); }
+
 } // namespace
 
 std::vector<TermId> demandsOfCall(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
@@ -161,9 +164,11 @@ CallContracts callContracts(SymbolicInterpretation &interpretation, const ProofS
       return of(callee->file, subject.contractsOf(*callee), callee->program, subject.nameOf(*callee));
     const auto missing = call.callee.number ? subject.options.missingContracts.find(*call.callee.number)
                                             : subject.options.missingContracts.end();
-    return missing == subject.options.missingContracts.end()
-               ? nullptr
-               : of(from, missing->second, ProgramId(0), toString(call.callee));
+    if (missing == subject.options.missingContracts.end())
+      return nullptr;
+    const Contract *contract = missing->second->of(ProgramId(0));
+    return contract && speaksOfOffsets(*contract) ? nullptr
+                                                  : of(from, missing->second, ProgramId(0), toString(call.callee));
   };
 }
 
