@@ -70,6 +70,15 @@ TEST_F(Terms, FunctionsFoldWhereTheyAreExact) {
   EXPECT_EQ(store[store.divide(x, number(0))].kind, TermKind::Divide);
 }
 
+TEST_F(Terms, RootsOfNumbersMultiply) {
+  const auto root = [&](int of) { return store.apply(Function::Sqrt, number(of)); };
+  EXPECT_EQ(store.multiply(root(2), root(8)), number(4));
+  EXPECT_EQ(store.multiply(root(2), root(3)), root(6));
+  EXPECT_EQ(store.multiply(store.multiply(x, root(2)), root(2)), store.scale(Number(2), x));
+  EXPECT_EQ(store.multiply(store.add(x, root(2)), root(2)), store.add(store.multiply(x, root(2)), number(2)));
+  EXPECT_EQ(store[store.multiply(root(-1), root(-1))].kind, TermKind::Multiply); // which no real numbers are
+}
+
 TEST_F(Terms, SubstitutionFoldsAgain) {
   const TermId formula = store.less(store.multiply(x, y), number(10));
   EXPECT_EQ(substitute(store, formula, {{x, number(2)}, {y, number(5)}}), store.no());
