@@ -5,7 +5,8 @@
 
 namespace feedhold::prove {
 
-/// All that a proof of the program assumes of the state in which it is entered.
+/// What the contract demands of the state in which the program is entered.  That numbers can be typed, which a proof of
+/// the program assumes, too, is not among it (docs/soundness-proofs.md, "Contracts in place of texts").
 std::vector<smt::TermId> demandsOfCall(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
                                        const SymbolicState &entered, const Dialect &dialect);
 

@@ -19,7 +19,7 @@ public:
   virtual const std::string &name() const = 0;
   virtual const FileContracts &file() const = 0;
   virtual const Contract &contract() const = 0;
-  /// What the state in which the program is entered has to satisfy: then it keeps its promises.
+  /// What the state in which the program is entered has to satisfy: then it keeps its promises, for all numbers.
   virtual std::vector<smt::TermId> demands(const SymbolicState &entered) = 0;
   /// `now`, in which anything may have changed since `before`: the parts that the contract says to be kept are as they
   /// were, and the codes in force that it names.
