@@ -2,6 +2,7 @@
 #include "proof/smt/model.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/rounding_facts.h"
+#include "proof/smt/square_facts.h"
 #include "proof/smt/unit_resolution.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,9 @@ public:
     if (depth == 0 || pick(0, 4) == 0)
       return inputs_[static_cast<std::size_t>(pick(0, 2))];
     const Computed a = computed(depth - 1), b = computed(depth - 1);
-    switch (pick(0, 5)) {
+    switch (pick(0, 7)) {
+    case 7: return distance(a, b);
+    case 6: return {store_.absolute(a.term), std::abs(a.value)};
     case 5: return fromConstant(a, std::ldexp(1.0, pick(-2, 2)), typed());
     case 0: return rounded(store_.add(a.term, b.term), a.value + b.value);
     case 1:
@@ -55,6 +58,13 @@ public:
     }
   }
 
+  /// |a - b|, chosen by the exact difference.
+  Computed distance(const Computed &a, const Computed &b) {
+    const TermId exact = store_.subtract(a.term, b.term);
+    const Computed difference = rounded(exact, a.value - b.value);
+    return {store_.ite(store_.less(store_.number(Number(0)), exact), difference.term, store_.negate(difference.term)),
+            std::abs(difference.value)};
+  }
   /// Bounds that the inputs keep, and comparisons that hold.
   std::vector<TermId> truths(const Computed &a, const Computed &b) {
     std::vector<TermId> all;
@@ -121,8 +131,52 @@ RC_GTEST_PROP(RoundingLaws, FactsAboutRoundedNumbersAreTrue, ()) {
     RC_ASSERT(holds(fact));
   for (const TermId formula : purified.formulas)
     RC_ASSERT(holds(formula));
-  for (const TermId weaker : purified.unrounded)
+  const auto unrounded = smt::withoutRounding(store, resolved);
+  for (const TermId weaker : unrounded.value_or(std::vector<TermId>{}))
     RC_ASSERT(holds(weaker));
+}
+
+RC_GTEST_PROP(RoundingLaws, FactsAboutSumsOfSquaresAreTrue, ()) {
+  TermStore store;
+  const double numbers[] = {typed(), typed(), typed()};
+  const TermId x = store.variable("x", Sort::Real), y = store.variable("y", Sort::Real),
+               r = store.variable("r", Sort::Real);
+  const auto squared = [&](TermId term) { return store.scale(Number(pick(-2, 3)), store.multiply(term, term)); };
+  const TermId sum = store.add(std::vector{squared(x), squared(y), squared(r)});
+  const TermId bound = store.number(Number::fromDouble(typed()));
+  const std::vector<TermId> formulas{store.lessOrEqual(sum, bound),
+                                     store.logicalOr(store.less(bound, sum), store.less(x, y))};
+  const smt::Model model{{"x", Number::fromDouble(numbers[0])},
+                         {"y", Number::fromDouble(numbers[1])},
+                         {"r", Number::fromDouble(numbers[2])}};
+  for (const TermId fact : smt::squareFacts(store, formulas))
+    RC_ASSERT(smt::isTrue(store, fact, model));
+}
+
+RC_GTEST_PROP(RoundingLaws, RootsLieBetweenTheirBounds, ()) {
+  const Number value = Number::fromDouble(std::abs(typed()) * std::pow(10.0, pick(-20, 20)));
+  const auto [low, high] = smt::rootBounds(value);
+  RC_ASSERT(low.sign() >= 0 && low * low <= value && value <= high * high);
+}
+
+/// A choice bounds what each of its cases does, and a square its root.
+RC_GTEST_PROP(RoundingLaws, BoundsHoldWhereTheFormulasDo, ()) {
+  TermStore store;
+  const double numbers[] = {typed(), typed()};
+  const TermId x = store.variable("x", Sort::Real), y = store.variable("y", Sort::Real);
+  const TermId squares = store.add(store.multiply(x, x), store.multiply(y, y));
+  const auto about = [&](TermId term) {
+    const TermId limit = store.number(Number::fromDouble(typed()));
+    return pick(0, 1) == 0 ? store.less(term, limit) : store.lessOrEqual(limit, term);
+  };
+  const auto some = [&] { return about(pick(0, 2) == 0 ? x : pick(0, 1) == 0 ? y : squares); };
+  const std::vector<TermId> formulas{store.logicalOr(store.logicalAnd(some(), some()), some()),
+                                     store.logicalOr(some(), some()), some()};
+  const smt::Model model{{"x", Number::fromDouble(numbers[0])}, {"y", Number::fromDouble(numbers[1])}};
+  for (const TermId formula : formulas)
+    RC_PRE(smt::isTrue(store, formula, model));
+  const smt::Bounds bounds(store, formulas);
+  RC_ASSERT(bounds.of(x).contains(numbers[0]) && bounds.of(y).contains(numbers[1]));
 }
 
 RC_GTEST_PROP(RoundingLaws, FactsAboutRoundedRootsAreTrue, ()) {

@@ -7,6 +7,7 @@
 #include "proof/decide/cancel.h"
 #include "proof/decide/discharge_eliminate.h"
 #include "proof/decide/discharge_memo.h"
+#include "proof/decide/discharge_parts.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
 #include "proof/smt/steps.h"
@@ -87,16 +88,18 @@ public:
     eliminated_ = eliminate(store_, formulas_);
     if (eliminated_.formulas == std::vector{store_.no()})
       return byFolding();
-    if (hasRounding(store_, eliminated_.formulas))
+    bool isRounded = false;
+    if (hasRounding(store_, eliminated_.formulas)) {
       eliminated_.formulas = smt::resolveUnits(store_, std::move(eliminated_.formulas));
-    smt::Purified purified = smt::purify(store_, eliminated_.formulas, smt::Hold::Together);
-    if (purified.unrounded.empty()) {
-      take(std::move(purified));
-      return decide();
+      if (auto unrounded = smt::withoutRounding(store_, eliminated_.formulas)) {
+        isRounded = true;
+        if (std::optional<Outcome> outcome = butForRounding(std::move(*unrounded)))
+          return std::move(*outcome);
+      }
     }
-    if (std::optional<Outcome> outcome = butForRounding(std::move(purified.unrounded)))
-      return std::move(*outcome);
-    take(std::move(purified));
+    take(smt::purify(store_, eliminated_.formulas, smt::Hold::Together));
+    if (!isRounded)
+      return decide();
     std::optional<Outcome> outcome = byCertificate(budget_.search / 2);
     return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
   }
@@ -108,6 +111,8 @@ private:
   }
 
   Outcome decide() {
+    if (std::optional<Outcome> outcome = byPart(budget_.search / 10))
+      return std::move(*outcome);
     if (budget_.z3 == 0) {
       std::optional<Outcome> outcome = byCertificate(budget_.search);
       return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
@@ -149,8 +154,23 @@ private:
     return isKnown || budget_.z3 == 0;
   }
 
-  std::optional<Outcome> byCertificate(std::uint64_t work) {
-    Result<check::UnsatProblem> claim = check::claimOf(store_, pure_);
+  /// Where some formulas have nothing to do with the others, and a search is not led astray by those.
+  std::optional<Outcome> byPart(std::uint64_t work) {
+    if (smt::arithmeticOf(store_, pure_) == smt::Arithmetic::Linear)
+      return std::nullopt; // one search sees it all
+    const std::vector<std::vector<TermId>> parts = independentParts(store_, pure_);
+    if (parts.size() < 2)
+      return std::nullopt;
+    for (const std::vector<TermId> &part : parts)
+      if (std::optional<Outcome> outcome = byCertificate(part, work); outcome && outcome->proved())
+        return outcome;
+    return std::nullopt;
+  }
+
+  std::optional<Outcome> byCertificate(std::uint64_t work) { return byCertificate(pure_, work); }
+
+  std::optional<Outcome> byCertificate(const std::vector<TermId> &formulas, std::uint64_t work) {
+    Result<check::UnsatProblem> claim = check::claimOf(store_, formulas);
     if (!claim) {
       reason_ = claim.error().message;
       return std::nullopt;

@@ -307,6 +307,13 @@ void Explorer::checkExactResults(const Path &path) {
   }
 }
 
+/// That the radii of an arc agree says much about its end, by roots and products: where it follows from the path
+/// anyhow, every later question is shorter without it.
+bool Explorer::isSeenToHold(const Path &path, const PossibleStop &stop, TermId goesOn) {
+  return purpose_ == Purpose::Record && stop.alarm == AlarmKind::ArcRadius && store_.shape(goesOn).hasRounding &&
+         entails_(interpretation_.facts(), path.conditions, goesOn);
+}
+
 bool Explorer::takeStops(Path &path) {
   checkExactResults(path);
   if (const auto reason = interpretation_.abandoned())
@@ -329,8 +336,11 @@ bool Explorer::takeStops(Path &path) {
       smt::spend(path.conditions.size());
       found->instances.push_back({path.conditions, stop.when.term, stop.number, path.moved});
     }
+    const TermId goesOn = store_.logicalNot(stop.when.term);
+    if (isSeenToHold(path, stop, goesOn))
+      continue;
     endCutter(path, stop.when.term);
-    if (!path.assume(store_, store_.logicalNot(stop.when.term)))
+    if (!path.assume(store_, goesOn))
       return false;
   }
   if (interpretation_.moved())

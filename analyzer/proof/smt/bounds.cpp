@@ -2,6 +2,7 @@
 
 #include "proof/smt/steps.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace feedhold::smt {
@@ -10,6 +11,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr int kDeepestBound = 200;     // of a term: of what lies deeper only what is told is known
 constexpr std::size_t kMostTerms = 12; // of a comparison that is learnt from
+constexpr std::size_t kMostCases = 4;  // of a choice that is learnt from
 
 bool isSquare(const Term &product) {
   return product.arguments.size() == 2 && product.arguments[0] == product.arguments[1];
@@ -36,18 +38,65 @@ void Bounds::learn(std::span<const TermId> formulas) {
 }
 
 void Bounds::learn(const Term &term) {
+  if (term.kind == TermKind::And)
+    for (const TermId part : term.arguments)
+      learn(store_[part]);
+  else if (term.kind == TermKind::Or)
+    learnChoice(term);
+  else if (const auto told = allowedBy(term))
+    learnAllowed(told->first, told->second);
+}
+
+void Bounds::learnAllowed(TermId sum, const Interval &allowed) {
+  restrict(sum, allowed);
+  learnSum(store_.linear(sum), allowed);
+}
+
+/// What is compared with a constant, and between which numbers it is then.
+std::optional<std::pair<TermId, Interval>> Bounds::allowedBy(const Term &term) const {
   const bool isComparison =
       term.kind == TermKind::Less || term.kind == TermKind::LessOrEqual || term.kind == TermKind::Equal;
   if (!isComparison || store_.sort(term.arguments[0]) == Sort::Bool)
-    return;
+    return std::nullopt;
   const TermId left = term.arguments[0], right = term.arguments[1];
   const bool isUpper = store_.isNumber(right); // one side is a constant
   const Interval bound = around(store_[isUpper ? right : left].number);
-  Interval allowed = isUpper ? Interval::atMost(bound.hi) : Interval::atLeast(bound.lo);
   if (term.kind == TermKind::Equal)
-    allowed = bound;
-  restrict(isUpper ? left : right, allowed);
-  learnSum(store_.linear(isUpper ? left : right), allowed);
+    return std::pair(isUpper ? left : right, bound);
+  return std::pair(isUpper ? left : right, isUpper ? Interval::atMost(bound.hi) : Interval::atLeast(bound.lo));
+}
+
+/// Of terms that every one of the cases bounds.
+void Bounds::learnChoice(const Term &choice) {
+  if (choice.arguments.size() > kMostCases)
+    return;
+  std::map<TermId, Interval> common = allowedIn(store_[choice.arguments.front()]);
+  for (std::size_t i = 1; i < choice.arguments.size() && !common.empty(); ++i) {
+    const std::map<TermId, Interval> next = allowedIn(store_[choice.arguments[i]]);
+    std::erase_if(common, [&](const auto &each) { return !next.contains(each.first); });
+    for (auto &[term, allowed] : common)
+      allowed = join(allowed, next.at(term));
+  }
+  for (const auto &[term, allowed] : common)
+    learnAllowed(term, allowed);
+}
+
+std::map<TermId, Interval> Bounds::allowedIn(const Term &one) const {
+  std::map<TermId, Interval> allowed;
+  const auto take = [&](const Term &part) {
+    if (const auto told = allowedBy(part)) {
+      const auto [known, isNew] = allowed.insert(*told);
+      if (!isNew)
+        known->second = meet(known->second, told->second).value_or(known->second);
+    }
+  };
+  spend(5 + 5 * one.arguments.size());
+  if (one.kind != TermKind::And)
+    take(one);
+  else
+    for (const TermId part : one.arguments)
+      take(store_[part]);
+  return allowed;
 }
 
 /// Each term alone, from what the others leave of the sum.
@@ -69,9 +118,13 @@ void Bounds::restrict(TermId term, const Interval &bounds) {
   const auto [known, isNew] = known_.try_emplace(term, bounds);
   const Interval before = known->second;
   if (!isNew)
-    known->second = meet(before, bounds).value_or(before); // the formulas contradict each other
+    known->second = meet(before, bounds).value_or(bounds.isFinite() ? bounds : before); // they contradict each other
   if (isNew || !(known->second == before))
     computed_.clear();
+  const Term &square = store_[term];
+  if (square.kind == TermKind::Multiply && isSquare(square))
+    if (const auto root = sqrt(Interval{0, std::max(0.0, known->second.hi)}); root && std::isfinite(root->hi))
+      restrict(square.arguments[0], {-root->hi, root->hi});
 }
 
 Interval Bounds::of(TermId term) const { return of(term, 0); }

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace feedhold::smt {
 
@@ -32,7 +33,11 @@ private:
   Interval of(TermId term, int depth) const;
   Interval found(TermId term, int depth) const;
   std::optional<bool> truthOf(TermId formula, int depth) const;
-  void learn(const Term &comparison);
+  void learn(const Term &formula);
+  void learnChoice(const Term &choice);
+  void learnAllowed(TermId sum, const Interval &allowed);
+  std::optional<std::pair<TermId, Interval>> allowedBy(const Term &comparison) const;
+  std::map<TermId, Interval> allowedIn(const Term &one) const;
   void learnSum(const LinearSum &sum, const Interval &allowed);
 
   const TermStore &store_;

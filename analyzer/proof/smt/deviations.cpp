@@ -37,6 +37,15 @@ const Deviation &Deviations::of(TermId term) {
   return known_.emplace(term, std::isfinite(found.most) ? found : Deviation{term, kUnknown}).first->second;
 }
 
+/// A difference of two rounded positions lies near that of the exact ones, however far each of them may be away.
+Interval Deviations::rangeOf(TermId term) {
+  const Interval told = rangeOf_(term);
+  const Deviation from = of(term); // a copy: more are found
+  if (from.exact == term || !std::isfinite(from.most))
+    return told;
+  return meet(told, add(rangeOf_(from.exact), {-from.most, from.most})).value_or(told);
+}
+
 Deviation Deviations::find(TermId id) {
   const Term term = store_[id]; // a copy: terms are made
   switch (term.kind) {
@@ -73,10 +82,10 @@ Deviation Deviations::ofSum(const std::vector<TermId> &terms) {
 /// |ab - a'b'| <= |a| |b - b'| + |b'| |a - a'|
 Deviation Deviations::ofProduct(const std::vector<TermId> &factors) {
   Deviation left = of(factors[0]);
-  double magnitude = rangeOf_(factors[0]).largest();
+  double magnitude = rangeOf(factors[0]).largest();
   for (std::size_t i = 1; i < factors.size(); ++i) {
     const Deviation right = of(factors[i]);
-    const double other = rangeOf_(factors[i]).largest();
+    const double other = rangeOf(factors[i]).largest();
     const double most = sum(product(magnitude, right.most), product(sum(other, right.most), left.most));
     left = {store_.multiply(left.exact, right.exact), most};
     magnitude = product(magnitude, other);
@@ -90,16 +99,41 @@ Deviation Deviations::ofQuotient(TermId dividend, TermId divisor) {
   const TermId exact = store_.divide(above.exact, below.exact);
   if (above.most == 0 && below.most == 0)
     return {exact, 0};
-  const Interval range = rangeOf_(divisor);
+  const Interval range = rangeOf(divisor);
   const double least = smallest(range) * (1 - 0x1p-40) - below.most;
   if (!(least > 0))
     return {exact, kUnknown};
-  const double quotient = roundedUp(rangeOf_(dividend).largest() / smallest(range));
+  const double quotient = roundedUp(rangeOf(dividend).largest() / smallest(range));
   return {exact, roundedUp(sum(above.most, product(quotient, below.most)) / least)};
 }
 
-/// Where rounding may decide which of the two is taken, as it is.
+/// `ite(0 < t, x, -x)` or `ite(t < 0, -x, x)`: |x|, where x is t, or t rounded, which has the sign of t.
+std::optional<TermId> Deviations::magnitudeIn(TermId choice) {
+  const std::vector<TermId> arguments = store_[choice].arguments; // a copy: terms are made
+  const TermId zero = store_.number(Number(0));
+  for (const bool isFirst : {true, false}) {
+    const TermId x = arguments[isFirst ? 1 : 2];
+    if (store_.negate(x) != arguments[isFirst ? 2 : 1])
+      continue;
+    const auto isSignOf = [&](TermId t) {
+      const TermId low = isFirst ? zero : t, high = isFirst ? t : zero;
+      return arguments[0] == store_.less(low, high) || arguments[0] == store_.lessOrEqual(low, high);
+    };
+    const Term &term = store_[x];
+    const bool isRounded = term.kind == TermKind::Apply && term.function == Function::Nearest;
+    const TermId unrounded = isRounded ? term.arguments[0] : x;
+    if (isSignOf(x) || isSignOf(unrounded))
+      return x;
+  }
+  return std::nullopt;
+}
+
+/// ||x| - |x'|| <= |x - x'|.  Of others, where rounding may decide which of the two is taken, as it is.
 Deviation Deviations::ofChoice(TermId id) {
+  if (const std::optional<TermId> x = magnitudeIn(id)) {
+    const Deviation signedOne = of(*x);
+    return {store_.absolute(signedOne.exact), signedOne.most};
+  }
   const std::vector<TermId> arguments = store_[id].arguments;
   if (std::ranges::any_of(reachable(store_, std::span(&arguments[0], 1)),
                           [&](TermId part) { return isRounding(store_[part]); }))
@@ -113,13 +147,13 @@ Deviation Deviations::ofFunction(TermId id) {
   const TermId argument = term.arguments[0];
   const Deviation inner = of(argument);
   switch (term.function) {
-  case Function::Nearest: return {inner.exact, sum(inner.most, halfUnitOf(rangeOf_(argument)))};
+  case Function::Nearest: return {inner.exact, sum(inner.most, halfUnitOf(rangeOf(argument)))};
   case Function::Near: return {inner.exact, sum(inner.most, rangeOf_(term.arguments[1]).hi)};
   case Function::Sin:
   case Function::Cos: return {store_.apply(term.function, inner.exact), product(0.01746, inner.most)}; // pi / 180
   case Function::Sqrt: {
     // |sqrt(a) - sqrt(a')| = |a - a'| / (sqrt(a) + sqrt(a'))
-    const double least = rangeOf_(argument).lo;
+    const double least = rangeOf(argument).lo;
     if (inner.most == 0 || !(least > inner.most))
       return {id, 0};
     return {store_.apply(term.function, inner.exact), roundedUp(inner.most / (std::sqrt(least) * (1 - 0x1p-40)))};

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 namespace feedhold::smt {
 
@@ -22,10 +23,12 @@ public:
   const Deviation &of(TermId term);
 
 private:
+  Interval rangeOf(TermId term);
   Deviation find(TermId term);
   Deviation ofSum(const std::vector<TermId> &terms);
   Deviation ofProduct(const std::vector<TermId> &factors);
   Deviation ofQuotient(TermId dividend, TermId divisor);
+  std::optional<TermId> magnitudeIn(TermId choice);
   Deviation ofChoice(TermId term);
   Deviation ofFunction(TermId term);
 

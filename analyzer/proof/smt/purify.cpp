@@ -3,6 +3,7 @@
 #include "base/support/check.h"
 #include "proof/smt/exact_angles.h"
 #include "proof/smt/rounding_facts.h"
+#include "proof/smt/square_facts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +17,9 @@ public:
   explicit Purifier(TermStore &store) : store_(store) {}
 
   Purified run(std::span<const TermId> formulas, Hold holds) {
-    for (TermId variable : variablesOf(store_, formulas))
-      FEEDHOLD_CHECK(!store_[variable].name.starts_with('!'), "names that begin with `!` are for new variables");
     Purified result;
-    for (TermId formula : formulas)
-      result.formulas.push_back(pure(formula));
-    const bool needsBounds = holds == Hold::Together && std::ranges::any_of(definitions_, [&](const Definition &each) {
-                               return isRounding(store_[each.application]);
-                             });
+    result.formulas = pureFormulas(formulas);
+    const bool needsBounds = holds == Hold::Together && hasRoundedDefinitions();
     bounds_.emplace(store_, needsBounds ? std::span<const TermId>(result.formulas) : std::span<const TermId>());
     if (needsBounds)
       boundDefinitions(result.formulas);
@@ -31,15 +27,46 @@ public:
     stateDefinitions();
     for (const TermId square : std::vector<TermId>(squares_)) // a proof would have to guess which sum to square
       fact(store_.lessOrEqual(number(Number(0)), square));
+    for (const TermId formula : squareFacts(store_, result.formulas))
+      fact(formula);
     stateOrders(result.formulas);
-    if (!rounded_.empty() && holds == Hold::Together)
-      result.unrounded = withoutRounding(store_, formulas, [this](TermId term) { return bounds_->of(pure(term)); });
     result.facts = std::move(facts_);
     result.definitions = std::move(definitions_);
     return result;
   }
 
+  /// What is learnt from formulas without rounding may bound what stands in others, so that these can do without, too.
+  std::optional<std::vector<TermId>> unrounded(std::span<const TermId> formulas) {
+    const std::vector<TermId> purified = pureFormulas(formulas);
+    if (!hasRoundedDefinitions())
+      return std::nullopt;
+    bounds_.emplace(store_, purified);
+    boundDefinitions(purified);
+    const auto find = [&] {
+      return withoutRounding(store_, formulas, [this](TermId term) { return bounds_->of(pure(term)); });
+    };
+    std::vector<TermId> found = find();
+    if (std::ranges::none_of(found, [&](TermId each) { return store_.shape(each).hasRounding; }))
+      return found;
+    std::erase_if(found, [&](TermId each) { return store_.shape(each).hasFunctions; });
+    bounds_->learn(found);
+    return find();
+  }
+
 private:
+  std::vector<TermId> pureFormulas(std::span<const TermId> formulas) {
+    for (TermId variable : variablesOf(store_, formulas))
+      FEEDHOLD_CHECK(!store_[variable].name.starts_with('!'), "names that begin with `!` are for new variables");
+    std::vector<TermId> purified;
+    for (TermId formula : formulas)
+      purified.push_back(pure(formula));
+    return purified;
+  }
+  bool hasRoundedDefinitions() const {
+    return std::ranges::any_of(definitions_,
+                               [&](const Definition &each) { return isRounding(store_[each.application]); });
+  }
+
   TermId pure(TermId formula) {
     if (isPlain(formula))
       return formula;
@@ -256,6 +283,10 @@ private:
 
   void squareRoot(TermId value, TermId x) {
     roots_.emplace(value, x);
+    if (store_.isNumber(x) && store_[x].number.sign() >= 0) {
+      const RootBounds bounds = rootBounds(store_[x].number);
+      fact(within(number(bounds.low), value, number(bounds.high)));
+    }
     factWhere(atMost(number(0), x), store_.logicalAnd(atMost(number(0), value), equal(times(value, value), x)));
   }
 
@@ -346,6 +377,10 @@ private:
 
 Purified purify(TermStore &store, std::span<const TermId> formulas, Hold holds) {
   return Purifier(store).run(formulas, holds);
+}
+
+std::optional<std::vector<TermId>> withoutRounding(TermStore &store, std::span<const TermId> formulas) {
+  return Purifier(store).unrounded(formulas);
 }
 
 } // namespace feedhold::smt

@@ -3,6 +3,7 @@
 
 #include "proof/smt/term.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,9 +19,6 @@ struct Purified {
   /// Facts about the new variables.  Each says nothing outside of the domain of its function: a quotient by 0 or the
   /// root of a negative number may be any number, so that no such term can prove anything.
   std::vector<TermId> facts;
-  /// Weaker formulas about the numbers that there would be if nothing were rounded (deviations.h), not purified: where
-  /// those cannot hold, neither can the given ones.  Of formulas that hold together; empty: nothing is rounded.
-  std::vector<TermId> unrounded;
   std::vector<Definition> definitions; ///< in the order in which they depend on one another
 };
 
@@ -31,5 +29,9 @@ enum class Hold : std::uint8_t { Together, Apart };
 /// Every assignment to the variables that satisfies the formulas can be extended to the new variables such that the
 /// purified formulas and the facts hold.
 Purified purify(TermStore &store, std::span<const TermId> formulas, Hold holds);
+
+/// Weaker formulas about the numbers that there would be if nothing were rounded (deviations.h), not purified: where
+/// those cannot hold together, neither can the given ones.  Absent: nothing is rounded.
+std::optional<std::vector<TermId>> withoutRounding(TermStore &store, std::span<const TermId> formulas);
 
 } // namespace feedhold::smt

@@ -136,11 +136,13 @@ void Simplex::shift(Index index, const DeltaNumber &step) {
 void Simplex::undo(Mark mark) {
   while (trail_.size() > mark) {
     Change &change = trail_.back();
-    Variable &variable = variables_[change.variable];
-    if (change.side == Change::Side::Conflict)
+    if (change.side == Change::Side::Conflict) { // of constants alone: there may be no variable
       infeasible_ = false;
-    else
-      (change.side == Change::Side::Lower ? variable.lower : variable.upper) = std::move(change.before);
+      trail_.pop_back();
+      continue;
+    }
+    Variable &variable = variables_[change.variable];
+    (change.side == Change::Side::Lower ? variable.lower : variable.upper) = std::move(change.before);
     // A row without bounds says nothing; it would only be carried along.
     if (variable.place == Place::Basic && !variable.lower && !variable.upper && !variable.definition.empty()) {
       variable.place = Place::Detached;

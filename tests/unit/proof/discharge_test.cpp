@@ -1,6 +1,7 @@
 #include "proof/decide/discharge.h"
 
 #include "proof/check/certificate.h"
+#include "proof/decide/discharge_parts.h"
 #include "proof/smt/smtlib.h"
 
 #include <gtest/gtest.h>
@@ -139,6 +140,23 @@ TEST_F(DischargeTest, NoBudgetIsUnknown) {
   EXPECT_TRUE(discharge(store, query).proved()) << "folding needs no budget";
   const Query hard{{store.equal(store.multiply(x, store.multiply(x, x)), number(2))}, store.less(x, number(1))};
   EXPECT_TRUE(std::holds_alternative<Unknown>(discharge(store, hard, {.search = 10, .z3 = 0, .cvc5 = 0}).answer));
+}
+
+TEST_F(DischargeTest, FormulasAreParted) {
+  const TermId ofX = store.less(x, number(3)), ofY = store.less(y, number(3)), ofBoth = store.less(y, z);
+  const auto parts = independentParts(store, std::vector{ofY, ofX, ofBoth});
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0], std::vector{ofX});
+  EXPECT_EQ(parts[1], (std::vector{ofY, ofBoth}));
+}
+
+/// In a part of their own, whose search has no unknown at all, or a product that those of the other part do not share.
+TEST_F(DischargeTest, PartsAreSearchedAlone) {
+  const TermId squares = store.add(store.multiply(x, x), store.multiply(y, y));
+  const TermId root = store.apply(Function::Sqrt, number(2));
+  expectCertified({{store.lessOrEqual(squares, number(4)), store.less(z, store.multiply(z, z))},
+                   store.lessOrEqual(x, number(2))});
+  expectCertified({{store.less(z, store.multiply(z, z))}, store.less(root, store.number(Number::fromDouble(1.5)))});
 }
 
 } // namespace
