@@ -89,6 +89,11 @@ private:
   Truth without(const Circle &circle) {
     return interpretation_.negation(context_.either(circle.byRadius, circle.byCentre));
   }
+  /// R counts before them; without any there is no radius that could differ, whether the block stops or moves in a line.
+  Truth hasDistances(const Circle &circle) {
+    return interpretation_.both(interpretation_.negation(circle.byRadius),
+                                context_.either(circle.byCentre, circle.beside));
+  }
   /// A control that refuses a distance beside the plane does so whatever else is given; of others it is not known
   /// whether it is in the place of the centre.
   Truth withoutCentre(const Circle &circle) {
@@ -109,7 +114,7 @@ private:
     const Truth mayDiffer =
         context_.either(interpretation_.both(isCircle, differs),
                         interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
-    alarms.radius = interpretation_.both(interpretation_.negation(circle.byRadius), mayDiffer);
+    alarms.radius = interpretation_.both(hasDistances(circle), mayDiffer);
     return alarms;
   }
   void raise(const Alarms &alarms, Truth follows) {
@@ -128,7 +133,7 @@ private:
     const Truth byRadius = interpretation_.both(circle.byRadius, context_.maybeNot());
     return {withoutCentre(circle), byRadius,
             context_.dialect().switches.pointArcStops == Switch::Off ? interpretation_.truth(false) : byRadius,
-            interpretation_.both(interpretation_.negation(circle.byRadius), context_.maybeNot())};
+            interpretation_.both(hasDistances(circle), context_.maybeNot())};
   }
   bool isUsual(CodeAction plane) const {
     const auto group = context_.modes.groupOf(ModalKind::Plane);
