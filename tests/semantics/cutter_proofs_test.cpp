@@ -33,6 +33,8 @@ public:
       text += isBehindArc ? arc() : fmt::format("G01 {}\n", line());
       if (random_() % 6 == 0)
         text += isLathe_ ? "M08\n" : "G01 Z-1. F100.\n";
+      if (random_() % 3 == 0)
+        corner();
     }
     text += fmt::format("G01 G40 {}[200.*#1]\nM30\n", isLathe_ ? 'Z' : 'X');
   }
@@ -48,11 +50,18 @@ private:
   std::string centre(int first, int second) const {
     return fmt::format("{}[{}.*#1]{}[{}.*#1]", isLathe_ ? 'K' : 'I', first, isLathe_ ? 'I' : 'J', second);
   }
-  std::string line() {
-    const int by = length();
+  std::string line(int longer = 0) {
+    const int by = longer + length();
     x_ += by * first_;
     y_ += by * second_;
     return point();
+  }
+  /// Two lines, and what stands between them.
+  void corner() {
+    const std::string before = line(1);
+    turn(random_() % 2 == 0 ? 1 : -1);
+    text += fmt::format("G01 {},{}[{}*#1]\n", before, random_() % 2 == 0 ? 'R' : 'C', random_() % 3 == 0 ? ".5" : "2.");
+    text += fmt::format("G01 {}\n", line(1));
   }
   std::string arc() {
     const int way = random_() % 2 == 0 ? 1 : -1;

@@ -6,6 +6,7 @@
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/executed_words.h"
 #include "meaning/semantics/turret.h"
+#include "meaning/semantics/waiting_corner.h"
 
 #include <algorithm>
 #include <string_view>
@@ -26,6 +27,7 @@ template <typename N> struct CutterBlock {
   std::string_view pocket = {};
   bool stopsReading = false;
   bool namesPlane = false;      // has words for the axes of the plane
+  bool leadsToCorner = false;   // its line waits for the next one (corners.h), which tells its moves, too
   bool cancelsByVector = false; // `G40 I10. J-10.`: the block before it ends where the two directions cross
   /// Why the block is not followed where the compensation is in force; empty: it is.
   std::string_view foreign = {};
@@ -205,6 +207,7 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
         block.cancelsByVector || (word.code->action == CodeAction::CompensationOff && detail::hasVector(words));
     block.stopsReading = block.stopsReading || word.code->role == CodeRole::ProgramStop;
   }
+  block.leadsToCorner = context.interpretation.mayBe(waitsForLine(context));
   const auto plane = planeOf(context);
   if (plane)
     block.plane.axes = *plane;

@@ -1,6 +1,7 @@
 // Exploration: what symbolic execution of all paths finds, before anything is proved.
 #pragma once
 
+#include "meaning/semantics/tip_direction.h"
 #include "meaning/semantics/tool_point.h"
 #include "proof/explore/called_contract.h"
 #include "proof/explore/path.h"

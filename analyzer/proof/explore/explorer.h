@@ -121,6 +121,7 @@ private:
   /// What a step that has not stopped has written.
   void takeWrites(const Path &path, const StepWrites &step);
   void takeRegionWrites(const Path &path, const SymbolicState &before);
+  void waitBesidePath(Path &path);
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicInterpretation> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
