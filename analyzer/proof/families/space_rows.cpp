@@ -336,6 +336,11 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
       axes += fmt::format("{}{}..", axes.empty() ? "" : " ", letterOf(axis));
   if (!axes.empty())
     return fmt::format("the start position of the tool is unknown; state it with `@START {}`", axes);
+  for (const auto *shifts : {&start_.entry().local, &start_.entry().shift})
+    if (std::ranges::any_of(*shifts, [&](const SymbolicValue &shift) { return variables.contains(shift.number); }))
+      return "a shift of G52 or G92 may be active at the start; `@OFFSET G54 X.. Y.. Z..` says where the zero point "
+             "lies, "
+             "and that none is";
   const Dialect &dialect = context_.subject.dialect();
   const ModalTable modes(dialect);
   for (std::size_t group = 0; group < kModalGroups; ++group)
