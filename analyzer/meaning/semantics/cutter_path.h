@@ -320,7 +320,8 @@ void CutterPath<Host>::startUp(Host &host, std::size_t index, const Block &block
     return loseHere(host, "cutter compensation that begins in an arc", index, at);
   if (isArc(programmed.kind))
     return stop(host, AlarmKind::CutterArc, at);
-  const Element element = elementOf(host, programmed, plane_, side_.sign, CutterRole::WayThere);
+  const Element element =
+      elementOf(host, programmed, plane_, side_.sign, byItself ? CutterRole::Contour : CutterRole::WayThere);
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return loseHere(host, open, index, at);
   if (byItself && stopsWhere(host, host.notPositive(host.magnitude(element.end - element.start) - side_.radius, 0),
@@ -475,8 +476,14 @@ template <typename Host> auto CutterPath<Host>::endOf(Host &host, std::size_t in
 
 template <typename Host>
 bool CutterPath<Host>::turnsOut(Host &host, const Element &before, const Element &behind) const {
-  return host.holds(
-      host.negative(withSign(side_.sign, cross(before.endDirection, behind.startDirection)), detail::kNoTurn));
+  const N sine = cross(before.endDirection, behind.startDirection);
+  if (!side_.isOfEitherSign)
+    return host.holds(host.negative(withSign(side_.sign, sine), detail::kNoTurn));
+  const bool mayTurn = !host.holds(host.none(sine, detail::kNoTurn));
+  if (mayTurn && dialect_->switches.sup == Switch::On)
+    host.cannotTell("cutter compensation of type B that begins or ends at a corner, by an offset that may be above or "
+                    "below 0");
+  return mayTurn;
 }
 
 template <typename Host> auto CutterPath<Host>::ofContour(Host &host, std::size_t index) const -> Element {

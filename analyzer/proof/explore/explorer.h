@@ -102,6 +102,7 @@ private:
   bool takeCutter(Path &path, const std::vector<MoveInstance> &moves, smt::TermId besidePath);
   bool settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff);
   std::optional<PathOffset> offsetOf(Path &path, const SymbolicValue &number);
+  std::optional<PathOffset> writtenOffset(Path &path, const SymbolicValue &number);
   void giveCentre(const Path &path, MoveInstance &move);
   bool mayRestoreSide(Path &path);
   void decideVacancies(const Path &path, MoveInstance &instance);
