@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace feedhold {
 
@@ -190,7 +191,9 @@ private:
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
     const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
-    const bool isPlaced = !wasLost_ && !interpretation_.isLost();
+    const bool isInAdditional = isInAdditionalSystem(ctx);
+    const bool isPlaced =
+        !wasLost_ && !interpretation_.isLost() && !std::exchange(wasInAdditional_, isInAdditional) && !isInAdditional;
     const bool isFollowed = isPlaced && (point.withoutCompensation || options_.cutter == CutterCompensation::Followed);
     const bool isButForLength = isFollowed && point.sameUnits && point.sameSide;
     const LengthInForce length = !point.withLength        ? LengthInForce::None
@@ -204,6 +207,12 @@ private:
       result_.moves.push_back({move, unitInForce(), here, own, numbers(point.zero), numbers(point.machineZero),
                                isButForLength && point.lengthKnown, isButForLength, length,
                                isFollowed && point.sameUnits});
+  }
+  /// G54.1 P, G154 P: its zero point, which nothing has given, is the operator's.  One that is in force from the start
+  /// is that of the coordinates of the start.
+  bool isInAdditionalSystem(StepContext<ConcreteInterpretation> &ctx) {
+    StepContext<ConcreteInterpretation> atStart{interpretation_, entry_, programs_, ctx.file, modes_, ctx.block};
+    return !detail::workOffsetInForce(ctx) && detail::workOffsetInForce(atStart);
   }
   LengthUnit unitInForce() {
     const auto ctx = context();
@@ -414,7 +423,8 @@ private:
   CutterPath<RunCutter> cutter_;
   std::map<double, std::optional<CutterOffset<double>>> otherOffsets_; // by D
   bool ended_ = false;
-  bool wasLost_ = false; // before the block: where the axes are was not known
+  bool wasInAdditional_ = false; // in the last block with moves (isInAdditionalSystem)
+  bool wasLost_ = false;         // before the block: where the axes are was not known
 };
 
 } // namespace

@@ -40,6 +40,8 @@ public:
   bool negative(double length, double tolerance) const { return length < -tolerance; }
   bool standing(Vector v, double tolerance) const { return magnitude(v) <= tolerance; }
   bool apart(Vector a, Vector b, double tolerance) const { return magnitude(a - b) > tolerance; }
+  std::optional<int> signOf(double offset) const { return offset < 0 ? -1 : 1; }
+  void cannotTell(std::string_view) const {}
   double number(double value) const { return value; }
   double lengthOf(const ConcreteValue &value) const { return value.number; }
   double magnitude(Vector v) const { return std::hypot(v.first, v.second); }
@@ -59,6 +61,7 @@ public:
                                 double radius) const;
 
   // ---- offsets ----
+  std::string_view whyNoOffset() const { return kNoOffset; }
   std::optional<CutterOffset<double>> offsetOf(Context &context, const ConcreteValue &value) const;
 
   // ---- moves ----

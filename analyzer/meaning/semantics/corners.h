@@ -12,20 +12,12 @@
 #pragma once
 
 #include "meaning/semantics/coordinates.h"
-#include "meaning/semantics/cutter_block.h"
 #include "meaning/semantics/targets.h"
+#include "meaning/semantics/waiting_corner.h"
 
 #include <algorithm>
 
 namespace feedhold {
-
-/// A line waits for the next one.
-template <ValueAlgebra R> typename R::Truth waitsForLine(StepContext<R> &context) {
-  R &interpretation = context.interpretation;
-  const auto &corner = context.state.corner;
-  return interpretation.negation(
-      interpretation.both(interpretation.isVacant(corner.chamfer), interpretation.isVacant(corner.radius)));
-}
 
 /// Something comes that is no line behind the corner, or none for certain: where the tool goes is not known, up to the
 /// corner.  In the second case a run may follow it, and stop.
@@ -111,10 +103,8 @@ public:
     const Point start = with(plane, corner, waiting.start);
     if (interpretation_.stopped())
       return corner;
-    if (!cut || mayCompensate(context_)) {
-      interpretation_.unmodelled(cut ? "a corner (,C ,R) under cutter compensation"
-                                     : "a rounding between lines that may go straight on or back",
-                                 context_.place());
+    if (!cut) {
+      interpretation_.unmodelled("a rounding between lines that may go straight on or back", context_.place());
       tellMove(MoveKind::Unmodelled, start, corner);
       return corner;
     }
@@ -283,6 +273,7 @@ private:
     move.kind = kind;
     move.start = start;
     move.end = end;
+    move.leadsToLine = true;
     move.feed = state_.word('F');
     return move;
   }

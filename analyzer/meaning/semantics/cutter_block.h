@@ -6,6 +6,7 @@
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/executed_words.h"
 #include "meaning/semantics/turret.h"
+#include "meaning/semantics/waiting_corner.h"
 
 #include <algorithm>
 #include <string_view>
@@ -14,7 +15,7 @@ namespace feedhold {
 
 template <typename N> struct CutterBlock {
   /// The codes and D ask for compensation on this side, seen along the path as the machine makes it (mirror images
-  /// swap the sides); absent: none.  Radius 0 where `whyNoRadius`.
+  /// swap the sides; so does a radius below 0, which is positive then); absent: none.  Radius 0 where `whyNoRadius`.
   std::optional<CutterSide<N>> side;
   std::string_view whyNoRadius = {}; // the offset is not known; empty: it is
   bool offsetIsAssumed = false;
@@ -26,6 +27,7 @@ template <typename N> struct CutterBlock {
   std::string_view pocket = {};
   bool stopsReading = false;
   bool namesPlane = false;      // has words for the axes of the plane
+  bool leadsToCorner = false;   // its line waits for the next one (corners.h), which tells its moves, too
   bool cancelsByVector = false; // `G40 I10. J-10.`: the block before it ends where the two directions cross
   /// Why the block is not followed where the compensation is in force; empty: it is.
   std::string_view foreign = {};
@@ -34,7 +36,7 @@ template <typename N> struct CutterBlock {
 /// The host (cutter_geometry.h) also has
 ///
 ///   offsetOf(context, value)  by that of D a radius of either sign, on a lathe by that of T radius and tip; absent,
-///                             kNoOffset or kNoNose: nothing gives it
+///                             whyNoOffset() or kNoNose: nothing gives it
 template <typename Host>
 CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typename Host::Interpretation> &context,
                                                  const ExecutedWords<typename Host::Interpretation> &words);
@@ -144,12 +146,13 @@ void readSide(Host &host, StepContext<typename Host::Interpretation> &context,
   else
     offset = host.offsetOf(context, word);
   if (!offset && block.whyNoRadius.empty())
-    block.whyNoRadius = Host::kNoOffset;
+    block.whyNoRadius = host.whyNoOffset();
   if (offset) {
     block.offsetIsAssumed = offset->isAssumed;
-    const bool isNegative = host.holds(host.negative(offset->radius, 0));
-    side.radius = withSign(isNegative ? -1 : 1, offset->radius);
-    side.sign = isNegative ? -side.sign : side.sign;
+    const std::optional<int> sign = host.signOf(offset->radius);
+    side.radius = withSign(sign.value_or(1), offset->radius);
+    side.sign *= sign.value_or(1);
+    side.isOfEitherSign = !sign;
   }
   if (host.holds(circleMappingOf(context, block.plane.axes).turnsOver))
     side.sign = -side.sign;
@@ -205,6 +208,7 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
         block.cancelsByVector || (word.code->action == CodeAction::CompensationOff && detail::hasVector(words));
     block.stopsReading = block.stopsReading || word.code->role == CodeRole::ProgramStop;
   }
+  block.leadsToCorner = context.interpretation.mayBe(waitsForLine(context));
   const auto plane = planeOf(context);
   if (plane)
     block.plane.axes = *plane;

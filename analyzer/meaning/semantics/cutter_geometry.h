@@ -17,6 +17,8 @@
 //   none, positive, notPositive, negative (length, tolerance)
 //                                 0, above it, not above it, below it; rounding alone brings a length within the
 //                                 tolerance
+//   signOf(offset)                1 where it is not below 0, -1 where it is; absent: it may be either
+//   cannotTell(why)               as for a truth
 //   number, magnitude, unit, quotient, least, apart
 //   direction(vector)             unit, or the vector itself
 //   crossing(normal, normal, radius)  from a corner to where the lines cross that lie the radius beside it along both
@@ -49,10 +51,12 @@ template <typename N> PlaneVector<N> quarterTurn(PlaneVector<N> v, int side) {
 }
 template <typename N> N withSign(int sign, N length) { return sign > 0 ? length : -length; }
 
-/// On which side of the path the tool goes, seen along it, and how far its centre lies from it: 0 or more.
+/// On which side of the path the tool goes, seen along it, and how far its centre lies from it.
 template <typename N> struct CutterSide {
   int sign = 1; // 1: left, -1: right
   N radius{};
+  /// The radius may be below 0, and the tool then on the other side.
+  bool isOfEitherSign = false;
   /// From the centre to the point that is programmed without compensation: on a lathe, the tip beside the nose.
   PlaneVector<N> tip{};
   friend bool operator==(const CutterSide &, const CutterSide &) = default;
@@ -200,11 +204,37 @@ CornerTurn turnOf(Host &host, const CutterElement<typename Host::Length> &before
   return host.holds(host.positive(sine, 0)) ? CornerTurn::Inner : CornerTurn::Outer;
 }
 
+namespace detail {
+
+/// An inner corner for one sign is an outer one for the other.  Where lines turn by a quarter or less, the centre goes
+/// to the same crossing, and where the path does not turn, both have one vector.
+template <typename Host>
+CutterJoin<typename Host::Length> joinOfEither(Host &host, const CutterElement<typename Host::Length> &before,
+                                               const CutterElement<typename Host::Length> &behind,
+                                               const CutterSide<typename Host::Length> &side) {
+  using N = typename Host::Length;
+  const N cosine = dot(before.endDirection, behind.startDirection);
+  const bool turnsSharply = host.holds(host.negative(cosine, 0));
+  if (!turnsSharply && host.holds(host.none(cross(before.endDirection, behind.startDirection), kNoTurn)))
+    return {.vectors = {side.radius * (behind.isArc ? behind.startNormal : before.endNormal)}};
+  if (turnsSharply || before.isArc || behind.isArc)
+    host.cannotTell(
+        "cutter compensation by an offset that may be above or below 0, at a corner beside an arc or of more "
+        "than a quarter turn");
+  return {.turn = CornerTurn::Inner, .vectors = {host.crossing(before.endNormal, behind.startNormal, side.radius)}};
+}
+
+} // namespace detail
+
 template <typename Host>
 CutterJoin<typename Host::Length> joinOf(Host &host, const CutterElement<typename Host::Length> &before,
                                          const CutterElement<typename Host::Length> &behind,
                                          const CutterSide<typename Host::Length> &side, CutterCorners corners) {
   using N = typename Host::Length;
+  if (side.isOfEitherSign && corners == CutterCorners::Lines)
+    return detail::joinOfEither(host, before, behind, side);
+  if (side.isOfEitherSign)
+    host.cannotTell("cutter compensation by an offset that may be above or below 0, about corners by arcs");
   CutterJoin<N> join{.turn = turnOf(host, before, behind, side.sign)};
   if (join.turn != CornerTurn::Back && host.holds(host.none(side.radius, 0))) {
     join.vectors = {{}};

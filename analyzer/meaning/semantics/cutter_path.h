@@ -6,6 +6,9 @@
 //   off -> waiting (G41 or G42 in force) -> on (from the first move in the plane: start-up) -> ending (G40 or D0)
 //       -> off (behind the first move in the plane: cancel)
 //
+// The line before a corner (,C ,R), the corner, and the line behind it are three blocks to the control, which has read
+// all of them when it makes the first.  They are told together, with the second line.
+//
 // What is not followed (another side or offset inside, a vector by I J K, G28 inside ..) leaves the path unknown up to
 // the end of the first move in the plane without compensation.
 //
@@ -106,12 +109,15 @@ private:
     std::size_t depth;
     std::size_t move;
   };
+  static constexpr std::string_view kNoLine =
+      "cutter compensation at a corner (,C ,R) without a line in the next block";
   static constexpr double kStanding = 1e-9; // a shorter way is none
   static constexpr double kSame = 1e-7;     // offsets that rounding alone keeps apart
 
   void takePocket(Host &host, const Block &block, const At &at, std::size_t end);
   void enter(Host &host, const Block &block, const At &at);
   void change(Host &host, const Block &block, const At &at);
+  void takeCorner(Host &host, const Block &block, bool isBehind, const At &at);
   void changeInside(Host &host, const Block &block, const At &at);
   void move(Host &host, std::size_t index, const Block &block, const At &at);
   void moveInPlane(Host &host, std::size_t index, const Block &block, const At &at);
@@ -148,6 +154,7 @@ private:
   CutterPlane plane_;
   Vector at_; // from the programmed point to the centre, behind the last finished block
   std::optional<Pending> pending_;
+  bool waits_ = false;         // the last block has a line that waits for the next one (corners.h)
   std::optional<Place> began_; // the last block with G41 or G42; absent: it was in force at the start
   std::optional<CutterAlarm> alarm_;
   std::string_view lostBy_; // Phase::Lost: the reason
@@ -171,18 +178,23 @@ void CutterPath<Host>::take(Host &host, const Block &block, CutterPlace where, s
   change(host, block, at);
   if (isOpen && phase_ != Phase::Off && phase_ != Phase::Lost)
     lose(host, "cutter compensation whose number, offset or side is not known for certain", at.place);
-  bool moves = false;
-  for (std::size_t i = first; i < end; ++i)
+  bool moves = false, isBehindCorner = false;
+  for (std::size_t i = first; i < end; ++i) {
     moves = isInPlane(host, host.moveOf(i)) || moves;
-  for (std::size_t i = first; i < end && !alarm_; ++i)
+    isBehindCorner = isBehindCorner || host.moveOf(i).leadsToLine;
+  }
+  takeCorner(host, block, isBehindCorner, at);
+  for (std::size_t i = first; i < end && !alarm_; ++i) {
     move(host, i, block, at);
-  if (!moves && !alarm_)
+    if (isBehindCorner && awaits(i) && pending_->move != i) // it takes all of its line
+      pending_->mayBeLast = true;
+  }
+  if (alarm_ || block.leadsToCorner)
+    return;
+  if (!moves)
     idle(host, block);
-}
-
-template <typename Host> void CutterPath<Host>::finish(Host &host) {
-  if (pending_ && !alarm_)
-    failReading(host);
+  else if (pending_ && block.stopsReading && dialect_->behaviour.cutterBlocks != 0)
+    pending_->mayBeLast = true;
 }
 
 // ---- modes ----
@@ -270,7 +282,7 @@ template <typename Host> void CutterPath<Host>::move(Host &host, std::size_t ind
     lose(host, "cutter compensation through a block that may move in the plane or not", at.place);
   if (phase_ == Phase::Lost) {
     host.leave(index, lostBy_);
-    if (inPlane && !block.side)
+    if (inPlane && !block.side && !programmed.leadsToLine)
       phase_ = Phase::Off;
   } else if (inPlane) {
     moveInPlane(host, index, block, at);
@@ -308,7 +320,8 @@ void CutterPath<Host>::startUp(Host &host, std::size_t index, const Block &block
     return loseHere(host, "cutter compensation that begins in an arc", index, at);
   if (isArc(programmed.kind))
     return stop(host, AlarmKind::CutterArc, at);
-  const Element element = elementOf(host, programmed, plane_, side_.sign, CutterRole::WayThere);
+  const Element element =
+      elementOf(host, programmed, plane_, side_.sign, byItself ? CutterRole::Contour : CutterRole::WayThere);
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return loseHere(host, open, index, at);
   if (byItself && stopsWhere(host, host.notPositive(host.magnitude(element.end - element.start) - side_.radius, 0),
@@ -463,8 +476,14 @@ template <typename Host> auto CutterPath<Host>::endOf(Host &host, std::size_t in
 
 template <typename Host>
 bool CutterPath<Host>::turnsOut(Host &host, const Element &before, const Element &behind) const {
-  return host.holds(
-      host.negative(withSign(side_.sign, cross(before.endDirection, behind.startDirection)), detail::kNoTurn));
+  const N sine = cross(before.endDirection, behind.startDirection);
+  if (!side_.isOfEitherSign)
+    return host.holds(host.negative(withSign(side_.sign, sine), detail::kNoTurn));
+  const bool mayTurn = !host.holds(host.none(sine, detail::kNoTurn));
+  if (mayTurn && dialect_->switches.sup == Switch::On)
+    host.cannotTell("cutter compensation of type B that begins or ends at a corner, by an offset that may be above or "
+                    "below 0");
+  return mayTurn;
 }
 
 template <typename Host> auto CutterPath<Host>::ofContour(Host &host, std::size_t index) const -> Element {
@@ -560,41 +579,7 @@ auto CutterPath<Host>::linksOf(Host &host, std::size_t index, const Join &join) 
   return links;
 }
 
-// ---- what cannot go on ----
-
-template <typename Host> bool CutterPath<Host>::stopsWhere(Host &host, Truth when, AlarmKind kind, const At &at) {
-  if (!began_ || !host.refuses(when, kind, *began_))
-    return false;
-  stop(host, kind, at);
-  return true;
-}
-
-template <typename Host> void CutterPath<Host>::stop(Host &host, AlarmKind kind, const At &at) {
-  if (pending_ && pending_->move >= at.move)
-    pending_.reset();
-  finish(host);
-  if (!alarm_ && began_)
-    alarm_ = CutterAlarm{kind, at.place, at.depth, at.move, *began_};
-}
-
-template <typename Host> void CutterPath<Host>::lose(Host &host, std::string_view reason, Place place) {
-  notes_.push_back({reason, place});
-  lostBy_ = reason;
-  if (pending_) {
-    host.leave(pending_->move, reason);
-    for (const std::size_t index : pending_->behind)
-      host.leave(index, reason);
-  }
-  pending_.reset();
-  phase_ = Phase::Lost;
-}
-
-template <typename Host>
-void CutterPath<Host>::loseHere(Host &host, std::string_view reason, std::size_t index, const At &at) {
-  lose(host, reason, at.place);
-  host.leave(index, reason);
-}
-
 } // namespace feedhold
 
 #include "meaning/semantics/cutter_pocket.h"
+#include "meaning/semantics/cutter_stop.h"

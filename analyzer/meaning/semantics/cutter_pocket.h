@@ -15,8 +15,8 @@ void CutterPath<Host>::takePocket(Host &host, const Block &block, const At &at, 
       why = block.pocket;
   if (const std::string_view open = host.takeUndecided(); why.empty())
     why = open;
-  if (why.empty() && block.side && block.side->sign > 0)
-    why = "a circular pocket with an offset below 0";
+  if (why.empty() && block.side && (block.side->sign > 0 || block.side->isOfEitherSign))
+    why = "a circular pocket with an offset that is, or may be, below 0";
   const bool isInside = phase_ != Phase::Off || block.isInCompensation;
   if (isInside)
     why = "a circular pocket under cutter compensation";

@@ -259,14 +259,14 @@ private:
       for (auto &[variable, value] : known)
         state_.variables.set(variable, std::move(value));
     }
-    forgetLengthVariables();
+    forgetToolOffsets(context_.behaviour().lengthOffsets);
+    forgetToolOffsets(context_.behaviour().cutterOffsets);
   }
   /// A parameter decides whether the control converts tool offsets, too (FANUC 5006#0, OIM).
-  void forgetLengthVariables() {
-    const OffsetMemory &memory = context_.behaviour().lengthOffsets;
+  void forgetToolOffsets(const OffsetMemory &memory) {
     std::vector<std::pair<std::uint32_t, Value>> written;
     for (const auto &[variable, value] : state_.variables.entries())
-      if (isLengthVariable(context_.dialect(), variable))
+      if (isOffsetVariable(context_.dialect(), memory, variable))
         written.emplace_back(variable, interpretation_.either(value, interpretation_.anyNumber()));
     for (const std::uint32_t first : {memory.geometry.front(), memory.wear.front()})
       for (const std::uint32_t low : {first, cellOf(context_.dialect(), first)})

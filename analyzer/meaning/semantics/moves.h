@@ -35,6 +35,8 @@ template <typename Value> struct Move {
   /// Of a cycle that takes the offset of D itself (circle_pocket.h): the ends that it moves towards the centre.
   bool offsetsStart = false;
   bool offsetsEnd = false;
+  /// The line before a corner, or the corner itself (corners.h): told with the line behind it, and not part of that.
+  bool leadsToLine = false;
 };
 
 /// The same move elsewhere.  `by`: how far, along X, Y and Z; `add` adds such a length to a coordinate.

@@ -130,6 +130,8 @@ private:
     const std::optional<std::uint32_t> first = firstOfSystem();
     if (which == 50.0 || which == 52.0)
       return interpretation_.abandon("control parameters set by G10", word.span);
+    if (which && isOfTools(*which))
+      return setToolOffset(word, *which);
     turnSystem(word, which);
     if (first && which == 2.0)
       return setWorkOffset(*first);
@@ -198,12 +200,37 @@ private:
         detail::writeWorkOffset(context_, first + number, interpretation_.select(entry->present, wanted, old));
       }
   }
-  void havocStored(const CodeWord &word) {
+  /// Of a mill: L10 geometry and L11 wear of H, L12 geometry and L13 wear of D (the operator's manuals of FANUC and
+  /// Mitsubishi, G10 of Haas).  No zero point changes.
+  bool isOfTools(double which) const {
+    return context_.dialect().machine == MachineKind::Milling && context_.behaviour().cutterOffsets.count != 0 &&
+           (which == 10.0 || which == 11.0 || which == 12.0 || which == 13.0);
+  }
+  void setToolOffset(const CodeWord &word, double which) {
+    const OffsetMemory &memory = context_.behaviour().cutterOffsets;
+    const auto first = which == 12.0 ? memory.geometry : memory.wear;
+    const auto *number = words_.find('P');
+    const auto *value = words_.find('R');
+    const std::optional<double> row = number ? interpretation_.constantOf(number->value) : std::nullopt;
+    const bool isAbsolute =
+        context_.behaviour().dataIsAbsolute ||
+        context_.certain(context_.inForce(ModalKind::Distance, {CodeAction::Absolute}, interpretation_.truth(true)));
+    const bool isKnown = which >= 12.0 && first[1] == 0 && row && *row >= 1 && *row <= memory.count &&
+                         *row == std::floor(*row) && value && context_.certain(value->present) && isAbsolute;
+    if (isKnown)
+      return writeVariable(context_, first[0] + static_cast<std::uint32_t>(*row) - 1,
+                           interpretation_.asNumber(value->value), word.span);
+    havocStored(word, ZeroPoints::Kept);
+  }
+  enum class ZeroPoints { Kept, Open };
+  void havocStored(const CodeWord &word, ZeroPoints zeroPoints = ZeroPoints::Open) {
+    const bool keeps = zeroPoints == ZeroPoints::Kept;
     for (const VariableRange &range : context_.dialect().variables)
-      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset ||
-          range.role == VariableRole::AdditionalWorkOffset)
+      if (range.role == VariableRole::Stored ||
+          (!keeps && (range.role == VariableRole::WorkOffset || range.role == VariableRole::AdditionalWorkOffset)))
         interpretation_.havocVariables(state_, range.first, range.last);
-    havocOrigins(context_);
+    if (!keeps)
+      havocOrigins(context_);
     forgetLength(context_);
     interpretation_.unmodelled("offsets set by G10", word.span);
   }

@@ -23,14 +23,16 @@ inline std::array<std::uint32_t, 2> lengthVariables(const Dialect &dialect, std:
 }
 
 /// One of the variables of lengths, by the number of its cell.
-inline bool isLengthVariable(const Dialect &dialect, std::uint32_t cell) {
-  const OffsetMemory &memory = dialect.behaviour.lengthOffsets;
+inline bool isOffsetVariable(const Dialect &dialect, const OffsetMemory &memory, std::uint32_t cell) {
   return std::ranges::any_of(std::array{memory.geometry.front(), memory.wear.front()}, [&](std::uint32_t first) {
     const auto isOneFrom = [&](std::uint32_t low) { // only the first numbers may have other names
       return low <= cell && cell - low < memory.count && cellOf(dialect, first + (cell - low)) == cell;
     };
     return isOneFrom(first) || isOneFrom(cellOf(dialect, first));
   });
+}
+inline bool isLengthVariable(const Dialect &dialect, std::uint32_t cell) {
+  return isOffsetVariable(dialect, dialect.behaviour.lengthOffsets, cell);
 }
 
 /// The length of an offset number.  Where it is not known which one, or the control keeps none in variables, a run has

@@ -1,6 +1,7 @@
 // Exploration: what symbolic execution of all paths finds, before anything is proved.
 #pragma once
 
+#include "meaning/semantics/tip_direction.h"
 #include "meaning/semantics/tool_point.h"
 #include "proof/explore/called_contract.h"
 #include "proof/explore/path.h"
@@ -215,6 +216,7 @@ struct PathOffset {
   std::vector<smt::TermId> conditions = {};
   bool isAssumed = false; // nothing says so but the tool of the contract
   TipDirection tip = {};
+  std::string_view why = {}; // it is not known, for this reason; empty: it is
 };
 /// Of a D, or of the T of a lathe, on a path, whose conditions prove what is asked.  Absent: nothing gives it.
 using OffsetOfCutter = std::function<std::optional<PathOffset>(const SymbolicValue &number,

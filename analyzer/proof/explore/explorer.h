@@ -103,6 +103,7 @@ private:
   bool takeCutter(Path &path, const std::vector<MoveInstance> &moves, smt::TermId besidePath);
   bool settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff);
   std::optional<PathOffset> offsetOf(Path &path, const SymbolicValue &number);
+  std::optional<PathOffset> writtenOffset(Path &path, const SymbolicValue &number);
   void giveCentre(const Path &path, MoveInstance &move);
   bool mayRestoreSide(Path &path);
   void decideVacancies(const Path &path, MoveInstance &instance);
@@ -122,6 +123,7 @@ private:
   /// What a step that has not stopped has written.
   void takeWrites(const Path &path, const StepWrites &step);
   void takeRegionWrites(const Path &path, const SymbolicState &before);
+  void waitBesidePath(Path &path);
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicInterpretation> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);

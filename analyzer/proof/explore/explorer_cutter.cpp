@@ -7,6 +7,7 @@
 #include "proof/symbolic/path_memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace feedhold::prove {
 
@@ -30,6 +31,11 @@ bool touchesOffsets(const Dialect &dialect, const SymbolicState &state,
   return std::any_of(written.begin(), written.end(), isOffset) || std::any_of(read.begin(), read.end(), isOffset) ||
          std::any_of(state.havocked.begin(), state.havocked.end(),
                      [&](const auto &range) { return holdsOffset(range.first, range.second); });
+}
+
+/// It has one variable for each column.
+bool isNumbered(const OffsetMemory &memory) {
+  return memory.count != 0 && memory.geometry[1] == 0 && memory.wear[1] == 0;
 }
 
 } // namespace
@@ -67,14 +73,47 @@ PathCutter Explorer::cutterOf(Path &path, CutterTrack &track, TermId also) {
 std::optional<PathOffset> Explorer::offsetOf(Path &path, const SymbolicValue &number) {
   auto context = contextOf(path);
   const auto proves = [&](TermId truth) { return entails_(interpretation_.facts(), path.conditions, truth); };
-  if (touchesOffsets(*fileOf(path).dialect, path.state, interpretation_.entryValues()) ||
-      !proves(toolPointOf(context, entry_).sameUnits.term))
+  if (!proves(toolPointOf(context, entry_).sameUnits.term))
     return std::nullopt;
+  if (touchesOffsets(*fileOf(path).dialect, path.state, interpretation_.entryValues()))
+    return writtenOffset(path, number);
   auto offset = options_.cutterOffset(number, proves);
   if (offset)
     for (const TermId condition : offset->conditions)
       path.assume(store_, condition);
   return offset;
+}
+
+/// The sum of both variables of its number, where the path bounds them: the program has written them, or the contract
+/// says what one holds.
+std::optional<PathOffset> Explorer::writtenOffset(Path &path, const SymbolicValue &number) {
+  constexpr int kLargest = 10'000; // an offset of which nothing is known has no bound
+  const Dialect &dialect = *fileOf(path).dialect;
+  const OffsetMemory &memory = dialect.behaviour.cutterOffsets;
+  const bool isOneMemory = isNumbered(memory) && dialect.machine == MachineKind::Milling;
+  const double row = store_.isNumber(number.number) ? store_[number.number].number.toDouble() : 0;
+  if (!isOneMemory || !(row >= 1 && row <= memory.count) || row != std::floor(row))
+    return std::nullopt;
+  if (dialect.switches.odi == Switch::Unknown)
+    return PathOffset{.radius = number.number,
+                      .why =
+                          "cutter compensation by an offset that the program writes, of which it is not known whether "
+                          "it is a radius or a diameter (parameter 5004#2, Setting 40 of Haas: the switch `odi`)"};
+  auto context = contextOf(path);
+  TermId radius = store_.number(smt::Number(0));
+  for (const std::uint32_t first : {memory.geometry[0], memory.wear[0]}) {
+    const std::uint32_t cell = cellOf(dialect, first + static_cast<std::uint32_t>(row) - 1);
+    const TermId part = interpretation_.asNumber(detail::storedValue(context, cell)).number;
+    const TermId largest = store_.number(smt::Number(kLargest));
+    const TermId isBounded = store_.logicalAnd(store_.less(store_.negate(largest), part), store_.less(part, largest));
+    if (!entails_(interpretation_.facts(), path.conditions, isBounded))
+      return PathOffset{.radius = radius,
+                        .why = "cutter compensation by an offset of which the program does not write both geometry and "
+                               "wear; `@GLOBAL` tells what the variable of the other holds"};
+    radius = store_.add(radius, part);
+  }
+  const bool isDiameter = dialect.switches.odi == Switch::On;
+  return PathOffset{.radius = isDiameter ? store_.scale(smt::Number(1) / smt::Number(2), radius) : radius};
 }
 
 /// The block has been executed.  True: its moves are taken here, in place of the explorer.

@@ -17,6 +17,7 @@ void Explorer::takeMoves(Path &path) {
     loseCutter(path, "cutter compensation through a block that may do anything");
   if (interpretation_.moves().empty() && !isMissing) {
     takeCutter(path, {}, beside ? beside->number : store_.number(smt::Number(1)));
+    waitBesidePath(path);
     return;
   }
   auto context = contextOf(path);
@@ -44,9 +45,20 @@ void Explorer::takeMoves(Path &path) {
     std::move(instances.begin(), instances.end(), std::back_inserter(result_.moves));
 }
 
+/// A line that waits for the next one (corners.h) is told with that, in which the compensation may have ended.
+void Explorer::waitBesidePath(Path &path) {
+  auto context = contextOf(path);
+  if (!interpretation_.mayBe(waitsForLine(context)))
+    return;
+  const SymbolicValue *known = path.state.variables.find(kBesidePath);
+  const TermId one = store_.number(smt::Number(1));
+  const TermId without = toolPointOf(context, entry_).compensationOff.term;
+  path.state.variables.set(kBesidePath, {store_.no(), store_.ite(without, known ? known->number : one, one)});
+}
+
 /// Whether cutter compensation puts the tool beside the path, or has done so before: a movement without it comes back
 /// to the path at its end, if it is one in the plane (FANUC operator's manual: the offset is cancelled by the first
-/// movement in the plane; one of length 0 is none).
+/// movement in the plane; one of length 0 is none).  The line before a corner belongs to a block before that.
 void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves,
                          ToolPoint<SymbolicInterpretation> &point) {
   const TermId one = store_.number(smt::Number(1));
@@ -60,7 +72,7 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
   TermId comesBack = store_.no();
   for (const Move<SymbolicValue> &move : moves)
     for (const Axis axis : plane ? std::vector{plane->first, plane->second} : std::vector<Axis>{})
-      if (move.kind != MoveKind::Unmodelled && !move.offsetsStart && !move.offsetsEnd)
+      if (move.kind != MoveKind::Unmodelled && !move.offsetsStart && !move.offsetsEnd && !move.leadsToLine)
         comesBack = store_.logicalOr(comesBack, store_.logicalNot(store_.equal(move.start[indexOf(axis)].number,
                                                                                move.end[indexOf(axis)].number)));
   if (!moves.empty())

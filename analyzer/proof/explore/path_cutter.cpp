@@ -15,6 +15,8 @@ constexpr std::string_view kAside =
     "cutter compensation of a block, or of an end of an arc, whose direction is not the same "
     "for all arguments";
 constexpr std::string_view kCrossing = "cutter compensation at a corner beside an arc that is not tangent";
+constexpr std::string_view kSmallTurn = "cutter compensation at a corner whose turn is perhaps so small that the "
+                                        "interpreter takes it for none";
 constexpr std::string_view kType = "cutter compensation that begins or ends at an outer corner: its type is not known "
                                    "(parameter 5003#0, the switch `sup`)";
 } // namespace
@@ -43,10 +45,16 @@ bool PathCutter::isOn(Switch setting) { return setting == Switch::Unknown ? unde
 
 bool PathCutter::isZero(Length length) { return proves(none(length, 0).term); }
 
-int PathCutter::signOf(Length length) {
+int PathCutter::strictSignOf(Length length) {
   if (proves(positive(length, 0).term))
     return 1;
   return proves(negative(length, 0).term) ? -1 : 0;
+}
+
+/// One that may be 0 or above it has corners like one of either sign.
+std::optional<int> PathCutter::signOf(Length offset) {
+  const int sign = isZero(offset) ? 1 : strictSignOf(offset);
+  return sign == 0 ? std::nullopt : std::optional(sign);
 }
 
 /// By the form of the terms, or by what the path says of them: along an axis, or by half a right angle.
@@ -61,7 +69,7 @@ std::optional<geometry::Slope> PathCutter::slopeOf(Vector v) {
   for (const int second : {1, -1})
     if (!slope && isZero(second > 0 ? v.first - v.second : v.first + v.second))
       slope = geometry::Slope{1, second, term(v.first)};
-  const int sign = slope ? signOf({store_, slope->times}) : 0;
+  const int sign = slope ? strictSignOf({store_, slope->times}) : 0;
   if (sign == 0)
     return std::nullopt;
   return sign > 0 ? slope : geometry::Slope{-slope->first, -slope->second, store_.negate(slope->times)};
@@ -112,8 +120,17 @@ PathCutter::Length PathCutter::least(Length a, Length b) {
   return a;
 }
 
-CornerTurn PathCutter::turnByAngle(const Element &, const Element &, int) {
-  undecided(kCrossing);
+/// A turn is at least as large as its sine, in radians: one of 0.05 is none to the interpreter, and one that misses the
+/// way back by less goes round the outside (RunCutter).
+CornerTurn PathCutter::turnByAngle(const Element &before, const Element &behind, int side) {
+  const Length sine = withSign(side, cross(before.endDirection, behind.startDirection));
+  const Length least = number(0.05);
+  if (proves(positive(sine - least, 0).term))
+    return CornerTurn::Inner;
+  if (proves(negative(sine + least, 0).term))
+    return CornerTurn::Outer;
+  if (!isZero(sine) || !proves(positive(dot(before.endDirection, behind.startDirection), 0).term))
+    undecided(kSmallTurn);
   return CornerTurn::None;
 }
 
@@ -132,7 +149,9 @@ Condition PathCutter::arcReversed(const Element &arc, Vector from, Vector to, Le
 
 std::optional<CutterOffset<TermLength>> PathCutter::offsetOf(Context &, const Value &number) {
   const auto offset = explored_.offsetOf(number);
-  if (!offset)
+  if (offset && !offset->why.empty())
+    whyNoOffset_ = offset->why;
+  if (!offset || !offset->why.empty())
     return std::nullopt;
   return CutterOffset<TermLength>{{store_, offset->radius}, offset->isAssumed, offset->tip};
 }

@@ -86,6 +86,8 @@ public:
   Truth negative(Length length, double) { return {store_.less(term(length), zero())}; }
   Truth standing(Vector v, double) { return {store_.logicalAnd(none(v.first, 0).term, none(v.second, 0).term)}; }
   Truth apart(Vector a, Vector b, double) { return {store_.logicalNot(standing(a - b, 0).term)}; }
+  std::optional<int> signOf(Length offset);
+  void cannotTell(std::string_view why) { undecided(why); }
   Length number(double value) { return {store_, store_.number(smt::Number::fromDouble(value))}; }
   Length lengthOf(const Value &value) { return {store_, value.number}; }
   Length magnitude(Vector v);
@@ -103,6 +105,7 @@ public:
   Move<Value> centreArc(Move<Value> move, const Element &, Vector, Vector, Length) const { return move; }
 
   // ---- offsets ----
+  std::string_view whyNoOffset() const { return whyNoOffset_; }
   std::optional<CutterOffset<TermLength>> offsetOf(Context &context, const Value &number);
 
   // ---- moves ----
@@ -120,7 +123,7 @@ private:
   bool proves(smt::TermId truth);
   bool isZero(Length length);
   /// 1 above 0, -1 below; 0: neither is known.
-  int signOf(Length length);
+  int strictSignOf(Length length);
   /// Present where its `times` is above 0.
   std::optional<geometry::Slope> slopeOf(Vector v);
   Length lengthOf(const geometry::Slope &slope) { return {store_, geometry::lengthOf(store_, slope)}; }
@@ -130,6 +133,7 @@ private:
   CutterTrack &track_;
   Explored explored_;
   std::string_view undecided_; // empty: nothing is
+  std::string_view whyNoOffset_ = kNoOffset;
 };
 
 /// The compensation of a path, from the block with G41 or G42 to the move that ends it.

@@ -311,6 +311,14 @@ bool isStated(const Contract &contract, const Dialect &dialect, std::uint32_t va
   });
 }
 
+bool namesAdditionalOffset(const ProgramFile &file) {
+  return std::ranges::any_of(file.tree->words, [&](const Word &word) {
+    const auto tenths = word.address() == 'G' ? word.tenths() : std::nullopt;
+    const Code *code = tenths ? findGCode(*file.dialect, *tenths) : nullptr;
+    return code != nullptr && code->action == CodeAction::ExtendedWorkOffset;
+  });
+}
+
 bool SpaceProver::isGivenAtStart(Axis axis) const {
   const auto &start = context_.subject.contract()->start;
   return start && std::any_of(start->axes.begin(), start->axes.end(),
@@ -336,6 +344,11 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
       axes += fmt::format("{}{}..", axes.empty() ? "" : " ", letterOf(axis));
   if (!axes.empty())
     return fmt::format("the start position of the tool is unknown; state it with `@START {}`", axes);
+  for (const auto *shifts : {&start_.entry().local, &start_.entry().shift})
+    if (std::ranges::any_of(*shifts, [&](const SymbolicValue &shift) { return variables.contains(shift.number); }))
+      return "a shift of G52 or G92 may be active at the start; `@OFFSET G54 X.. Y.. Z..` says where the zero point "
+             "lies, "
+             "and that none is";
   const Dialect &dialect = context_.subject.dialect();
   const ModalTable modes(dialect);
   for (std::size_t group = 0; group < kModalGroups; ++group)
@@ -344,6 +357,10 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
       return fmt::format("the modal code of the group of G{:02} at the start is unknown; state it with `@MODAL`",
                          code.tenths / 10);
     }
+  const auto isOpen = [&](const SymbolicValue &zero) { return !smt::variablesOf(start_.store(), zero.number).empty(); };
+  if (std::ranges::any_of(move.point.zero, isOpen) && namesAdditionalOffset(context_.subject.file()))
+    return "where the zero point of an additional work offset (G54.1 P, G154 P) lies is not known, and no clause tells "
+           "it; `@OFFSET` tells those of G54 to G59";
   for (const auto &[variable, value] : start_.interpretation().entryValues())
     if (const auto clause =
             variables.contains(value.number) && !isStated(*context_.subject.contract(), dialect, variable)

@@ -1,5 +1,5 @@
 // Stops: no run reaches `#3000=` or an alarm of the control, unless the contract declares the alarm.
-#include "meaning/cfg/reached_programs.h"
+#include "proof/families/called_compensation.h"
 #include "proof/families/families.h"
 
 #include <algorithm>
@@ -31,9 +31,8 @@ auto stopAt(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
     });
     if (!alarm && here && run.end == RunEnd::UserAlarm && !isForeseen)
       return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
-    if (alarm == AlarmKind::CutterCompensation && run.end == RunEnd::Alarm && run.compensation == place)
-      return fmt::format("stops: {}{}", meaningOf(run.alarm),
-                         run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : "");
+    if (alarm == AlarmKind::CutterCompensation)
+      return stopInCompensation(run, place);
     if (alarm && here && run.end == RunEnd::Alarm && run.alarm == *alarm)
       return "the control stops here";
     return std::nullopt;
@@ -44,20 +43,6 @@ ObligationKind kindOf(const StopSite &stop) {
   if (!stop.alarm)
     return ObligationKind::AlarmUnreachable;
   return stop.alarm == AlarmKind::CutterCompensation ? ObligationKind::Compensation : ObligationKind::NoControlAlarm;
-}
-
-/// On each path where the compensation is followed the control does not stop.  False: it is not followed at all.
-bool askCompensation(const Exploration &found, const StopSite &stop, Question &question) {
-  for (const CutterClaim &claim : found.cutterClaims)
-    if (claim.began == stop.place) {
-      question.goals.push_back({&claim.conditions, claim.goal});
-      if (question.whyOpen.empty() && !claim.why.empty())
-        question.whyOpen = "the path of the tool's centre is not followed: " + claim.why;
-    }
-  if (question.goals.empty())
-    question.whyOpen = "the path of the tool's centre under G41 and G42 is not followed; state the offset of D with "
-                       "`@OFFSET`, or the tool with `@TOOL`; `feedhold run` follows it for given arguments";
-  return !question.goals.empty();
 }
 
 std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
@@ -77,27 +62,6 @@ TermId isOneOf(SymbolicInterpretation &interpretation, const SymbolicValue &valu
   for (const std::uint32_t number : numbers)
     any.push_back(store.equal(value.number, interpretation.number(number).number));
   return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
-}
-
-/// The text has a code with which compensation begins, or a computed G code, which may be one.
-bool namesSide(const ProgramFile &file) {
-  return std::ranges::any_of(file.tree->words, [&](const Word &word) {
-    if (word.address() != 'G')
-      return false;
-    const auto tenths = word.tenths();
-    const Code *code = tenths ? findGCode(*file.dialect, *tenths) : nullptr;
-    return !tenths || (code && beginsCompensation(code->action));
-  });
-}
-
-/// No cutter compensation begins in the program or in one that it comes to: M72 and a return can restore none but that
-/// which was in force at the start, and for that the caller answers, where it begins.
-bool beginsNoCompensation(const ProofSubject &subject) {
-  ReachedPrograms reached;
-  collectReached(subject.programs, {subject.program.file, subject.program.program}, reached);
-  return !reached.orAny && std::ranges::none_of(reached.programs, [&](const ProgramRef &program) {
-    return namesSide(subject.programs.file(program.file));
-  });
 }
 
 /// The node that assigns: the same as where a path meets it, so that it is the same claim.
@@ -121,20 +85,23 @@ Questions stopQuestions(const ExploredProgram &program) {
   smt::TermStore &store = start.store();
   const std::vector<std::uint32_t> foreseen = foreseenAlarms(subject.contract());
   std::optional<bool> isOfCaller;
+  const bool isCovered = isCoveredByCallers(subject, {subject.program.file, subject.program.program});
   Questions questions;
+  if (subject.contract() && subject.wants(ObligationKind::Compensation))
+    questions = calledCompensations(program);
   for (const StopSite &stop : found.stopSites) {
     const ObligationKind kind = kindOf(stop);
     if (!subject.isOwn(stop.place) || !subject.wants(kind))
       continue;
     if (kind == ObligationKind::Compensation && !isOfCaller)
       isOfCaller = beginsNoCompensation(subject);
-    if (kind == ObligationKind::Compensation && *isOfCaller)
+    if (kind == ObligationKind::Compensation && (*isOfCaller || isCovered))
       continue;
     Question question{.row = subject.obligation(kind, stop.place, stop.span, stopClaim(stop, foreseen)),
                       .goals = {},
                       .broken = stopAt(stop, foreseen)};
     question.row.alarm = stop.alarm;
-    if (kind == ObligationKind::Compensation && askCompensation(found, stop, question)) {
+    if (kind == ObligationKind::Compensation && askCompensation(found, stop.place, question)) {
       questions.push_back(std::move(question));
       continue;
     }

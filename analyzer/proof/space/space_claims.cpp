@@ -209,8 +209,10 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
     return premises;
   }
   if (lengthInSpindle_ && !isOfProgrammed(rule))
-    premises.emplace_back(store_.logicalNot(instance.point.lengthSubtracted.term),
-                          "G44 subtracts the tool length here, and `@LENGTH` tells lengths as G43 adds them");
+    premises.emplace_back(
+        store_.logicalNot(instance.point.lengthSubtracted.term),
+        "G44 subtracts the tool length here, and `@LENGTH` tells lengths as G43 adds them; write G43 with the "
+        "length negated, or leave out `@LENGTH`: regions need no lengths");
   else
     premises.emplace_back(
         instance.point.lengthKnown.term,
