@@ -62,6 +62,34 @@ bool isChecksum(const SyntaxIssue &issue, const FileContext &context) {
          word.find_first_of("#[") == std::string_view::npos && trimmed(restOfBlock(issue, context)).empty();
 }
 
+/// The first parenthesis closes, the last one opens.
+bool closesFirst(std::string_view block) {
+  const std::size_t at = block.find_first_of("()");
+  return at != std::string_view::npos && block[at] == ')';
+}
+bool opensLast(std::string_view block) {
+  const std::size_t at = block.find_last_of("()");
+  return at != std::string_view::npos && block[at] == '(';
+}
+
+std::string_view textOf(std::size_t block, const FileContext &context) {
+  return block < context.tree.blockCount() ? context.text(context.tree.blocks[BlockId(block)].span())
+                                           : std::string_view();
+}
+
+/// A remark that is open at the end of its line, and closed there or in the next block.
+bool isLongRemark(const SyntaxIssue &issue, const FileContext &context) {
+  return issue.kind == SyntaxIssueKind::UnclosedComment &&
+         (context.text(issue.span).ends_with(')') ||
+          closesFirst(textOf(context.tree.blockAt(issue.span.begin).index() + 1, context)));
+}
+
+/// In the block that closes it.
+bool isRestOfRemark(const SyntaxIssue &issue, const FileContext &context) {
+  const std::size_t block = context.tree.blockAt(issue.span.begin).index();
+  return block > 0 && closesFirst(textOf(block, context)) && opensLast(textOf(block - 1, context));
+}
+
 /// `GO1`, `X1O.`: the letter that looks like a digit is written so all over by those who do it at all.  `X?`, `X__`:
 /// a number to be filled in.
 bool isSlip(const SyntaxIssue &issue, const FileContext &context) {
@@ -74,7 +102,7 @@ bool isSlip(const SyntaxIssue &issue, const FileContext &context) {
 /// What mistakes in macro statements leave, a bracket or a THEN too few, shows that the author writes macros.
 bool isOutsideLanguage(const SyntaxIssue &issue, const FileContext &context) {
   const bool isText = issue.kind == SyntaxIssueKind::UnexpectedText || issue.kind == SyntaxIssueKind::MissingValue;
-  return habitAt(issue, context) || (isText && !isSlip(issue, context));
+  return habitAt(issue, context) || (isText && !isSlip(issue, context) && !isRestOfRemark(issue, context));
 }
 
 /// The beginning of what cannot be read, with any letter and any digit for its own.
@@ -182,7 +210,7 @@ std::optional<ForeignHabit> habitAt(const SyntaxIssue &issue, const FileContext 
     return ForeignHabit::SlashRemark;
   if (issue.kind == SyntaxIssueKind::UnbracketedExpression && isChecksum(issue, context))
     return ForeignHabit::Checksum;
-  if (issue.kind == SyntaxIssueKind::UnclosedComment && context.text(issue.span).ends_with(')'))
+  if (isLongRemark(issue, context))
     return ForeignHabit::LongRemark;
   if (issue.kind != SyntaxIssueKind::UnexpectedText)
     return std::nullopt;
