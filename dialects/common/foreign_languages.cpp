@@ -130,6 +130,34 @@ constexpr std::array kPrinter = {
     LanguageHint{TextSignal::PrinterProbe, 20}, // more than all that G38 speaks for LinuxCNC
     LanguageHint{TextSignal::TemplateName, 8},
 };
+/// Turbo PMAC takes what follows into a buffer; one such head is enough.
+constexpr std::array kPmac = {
+    LanguageHint{TextSignal::BufferHead, 40},
+};
+constexpr std::array kAerotech = {
+    LanguageHint{TextSignal::AerotechStatement, 12},
+};
+/// `METRIC` alone may be a remark that lost its parentheses.
+constexpr std::array kDrill = {
+    LanguageHint{TextSignal::DrillHead, 10},
+};
+/// Positions of a job, `C001=..`, look like tables of wire erosion.
+constexpr std::array kRobot = {
+    LanguageHint{TextSignal::RobotJob, 30},
+};
+/// Its words have an equals sign, as Sinumerik's have.
+constexpr std::array kXilog = {
+    LanguageHint{TextSignal::XilogLine, 40},
+};
+constexpr std::array kTemplate = {
+    LanguageHint{TextSignal::EditorTemplate, 30},
+};
+constexpr std::array kTraining = {
+    LanguageHint{TextSignal::TrainingTool, 12},
+};
+constexpr std::array kLabelP = {
+    LanguageHint{TextSignal::LabelP, 70}, // counted where both labels of a contour are written so
+};
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
 };
@@ -176,6 +204,20 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"a program for Acramatic (Cincinnati)", "its codes are not those of a Macro B control", kAcramatic},
     ForeignLanguage{"G code of a printer or a hobby control (Marlin, Smoothieware, RepRap)",
                     "its M codes and messages are not those of a Macro B control; exclude these files", kPrinter},
+    ForeignLanguage{"a program for a PMAC motion controller (Delta Tau)",
+                    "its programs and PLCs are not those of a Macro B control; exclude these files", kPmac},
+    ForeignLanguage{"AeroBasic of an Aerotech controller",
+                    "its variables and statements are not those of a Macro B control; exclude these files", kAerotech},
+    ForeignLanguage{"an Excellon drill file",
+                    "drill files of circuit boards have codes of their own; exclude these files", kDrill},
+    ForeignLanguage{"a robot job (Yaskawa INFORM)", "jobs of robots are no NC programs; exclude these files", kRobot},
+    ForeignLanguage{"Xilog (SCM)", "words such as `X=10` are not supported; exclude these files", kXilog},
+    ForeignLanguage{"a template for an editor", "check the program that is made from it; exclude these files",
+                    kTemplate},
+    ForeignLanguage{"a program for a training control (PAL)",
+                    "its tools and cycles are not those of a FANUC control; exclude these files", kTraining},
+    ForeignLanguage{"a program for a simulator whose labels are P words",
+                    "`G71 P1 Q2` looks for N1 and N2 on a FANUC control; exclude these files", kLabelP},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };

@@ -1,5 +1,5 @@
 // unexpected-text: bytes that the control does not know.
-#include "findings/rule/rule.h"
+#include "findings/rule/other_control.h"
 
 #include "base/support/text.h"
 #include "rules/words/letter_for_digit.h"
@@ -180,10 +180,7 @@ void reportUnlabelled(const SyntaxIssue &issue, const FileContext &context, cons
 
 /// `M00 /clamp again`: `/` begins a remark in other languages.
 bool isBehindSlash(const SyntaxIssue &issue, const FileContext &context) {
-  const BlockId block = context.tree.blockAt(issue.span.begin);
-  const std::string_view before = trimmed(context.text({context.tree.blocks[block].begin, issue.span.begin}));
-  return issue.kind == SyntaxIssueKind::UnexpectedText && before.size() > 1 && before.ends_with('/') &&
-         isLetter(context.text(issue.span).front());
+  return issue.kind == SyntaxIssueKind::UnexpectedText && habitAt(issue, context) == ForeignHabit::SlashRemark;
 }
 
 /// Once for all of the file: they have one cause.

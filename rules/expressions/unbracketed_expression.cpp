@@ -1,5 +1,5 @@
 // unbracketed-expression: `X#1+2` where `X[#1+2]` is wanted.
-#include "findings/rule/rule.h"
+#include "findings/rule/other_control.h"
 
 #include "base/support/text.h"
 
@@ -19,10 +19,21 @@ bool hasVariableWithPoint(std::string_view text) {
   return false;
 }
 
+/// What is meant is no expression: a sender adds such numbers to the blocks, and the controls that know them take them
+/// off.
+void reportChecksum(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("{} behind the block looks like a checksum", context.quoted(issue.span)),
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                             "delete it, unless the control takes it off"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.wordMayBeUnbracketed)
     return;
   const std::string_view word = context.text(issue.other);
+  if (habitAt(issue, context) == ForeignHabit::Checksum)
+    return reportChecksum(issue, context, reporter);
   const std::size_t equals = word.find('=');
   const auto letter = std::find_if(word.begin(), word.end(), isLetter);
   const auto before = equals != std::string_view::npos ? equals : static_cast<std::size_t>(letter - word.begin());

@@ -1,6 +1,6 @@
 // offset-value-as-number: `G43 H#11001`, the length of tool 1 in the place of its number; `G41 D#501` with `#501=0.01`.
+#include "findings/rule/other_control.h"
 #include "rules/flow/system_variables.h"
-#include "rules/variables/other_control.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // variable-not-available: `#50`, `#250`: between the ranges; `#[#1]` where #1 is 50.
+#include "findings/rule/other_control.h"
 #include "rules/variables/computed_number.h"
-#include "rules/variables/other_control.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 // block-skip-level: `//`, `/0`.
-#include "findings/rule/rule.h"
-
-#include "language/dialect/line_signals.h"
+#include "findings/rule/other_control.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,13 +12,6 @@ bool isDouble(const SyntaxIssue &issue, const FileContext &context) {
   return issue.kind == SyntaxIssueKind::BlockSkipLevel && context.text(issue.span).ends_with("//");
 }
 
-/// `// size tolerance`: something that no program is made of stands behind the slashes.
-bool isRemark(const SyntaxIssue &issue, const FileContext &context) {
-  TextScan scan;
-  scanLine(context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end}), scan);
-  return scan.otherLines + scan.signalLines > 0;
-}
-
 /// Once for all of the file: they have one cause.
 void reportDouble(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   const auto isSame = [&](const SyntaxIssue &other) { return isDouble(other, context); };
@@ -28,7 +19,7 @@ void reportDouble(const SyntaxIssue &issue, const FileContext &context, const Re
     return;
   const auto others = std::ranges::count_if(context.tree.issues, isSame) - 1;
   const bool hasRemark = std::ranges::any_of(
-      context.tree.issues, [&](const SyntaxIssue &other) { return isSame(other) && isRemark(other, context); });
+      context.tree.issues, [&](const SyntaxIssue &other) { return isSame(other) && habitAt(other, context); });
   const std::string more =
       others == 0 ? "" : fmt::format(", here and in {} more block{}", others, others == 1 ? "" : "s");
   reporter.report({.message = hasRemark ? fmt::format("`//` does not begin a remark{}", more)

@@ -226,6 +226,18 @@ bool isInsistedOn(const Candidate &candidate, DialectChoice choice) {
   FEEDHOLD_UNREACHABLE("a way to choose a dialect");
 }
 
+bool isGuessed(DialectChoice choice) {
+  switch (choice) {
+  case DialectChoice::Option:
+  case DialectChoice::FilePattern:
+  case DialectChoice::Config: return false;
+  case DialectChoice::Guess:
+  case DialectChoice::FolderVote:
+  case DialectChoice::Fallback: return true;
+  }
+  FEEDHOLD_UNREACHABLE("a way to choose a dialect");
+}
+
 /// Why the file is no business of ours, when it is not.
 std::optional<std::string> whySkipped(const Candidate &candidate, DialectChoice choice) {
   const bool hasSign = candidate.found.foundBy != FoundBy::Content || candidate.guess.hasCodes;
@@ -271,13 +283,14 @@ private:
       return;
     }
     std::vector<std::string_view> reasons;
-    if (settings.choice == DialectChoice::Guess || settings.choice == DialectChoice::FolderVote || foreign != nullptr)
+    const bool isGuess = isGuessed(settings.choice);
+    if ((isGuess && settings.choice != DialectChoice::Fallback) || foreign != nullptr)
       reasons = candidate.guess.reasons;
     const GCodeSystem system = profile->dialect.switches.gCodeSystem;
     if (system != GCodeSystem::A && !settler_.namedSystem(*candidate.found.config, settings))
       reasons.push_back(marksOf(system));
     result_.items.push_back({candidate.found.shown, candidate.found.path, *candidate.source, std::move(profile),
-                             settings.choice, std::move(reasons), foreign});
+                             settings.choice, std::move(reasons), foreign, !isGuess || candidate.guess.namesControl});
   }
 
   static bool runsForeignRule(const Profile &profile) {

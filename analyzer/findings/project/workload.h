@@ -58,6 +58,7 @@ struct WorkItem {
   DialectChoice choice;
   std::vector<std::string_view> reasons;
   const ForeignLanguage *foreign; // null: a language that we read
+  bool isNamed = false;           // by a person, or by the text: for which control it was written is no guess
 };
 
 /// The rule that says it of a file in another language.

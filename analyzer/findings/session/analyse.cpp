@@ -11,6 +11,7 @@
 #include "findings/session/analysis_keys.h"
 #include "findings/session/file_analysis.h"
 #include "findings/session/fingerprint.h"
+#include "findings/session/other_language.h"
 
 #include <fmt/format.h>
 
@@ -100,8 +101,12 @@ std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext 
 
 FileAnalysis analyseOne(const WorkItem &item, const FileContext &context, const RuleRegistry &rules) {
   FileAnalysis result;
-  SuppressionResult raw =
-      applySuppressions(runRules(item.profile->rules, context), context, rules, item.profile->rules);
+  std::vector<RawFinding> found;
+  if (auto doubt = doubtOf(item, context))
+    found.push_back(std::move(*doubt)); // and nothing else, as of a file that is refused
+  else
+    found = runRules(item.profile->rules, context);
+  SuppressionResult raw = applySuppressions(std::move(found), context, rules, item.profile->rules);
   const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
   result.findings = findingsOf(std::move(raw), context, *item.profile);
   for (const Program &program : context.model.programs)
@@ -144,25 +149,9 @@ bool isOnlyCalled(const WorkItem &item, const AnalyseOptions &options) {
   return options.only != nullptr && !options.only->contains(item.shown);
 }
 
-Span firstLineWithText(const SourceFile &source) {
-  for (std::uint32_t line = 1; line <= source.lineCount(); ++line)
-    if (const Span span = source.lineSpan(line); !trimmed(source.text(span)).empty())
-      return span;
-  return {};
-}
-
 /// One finding instead of a thousand: nothing else is said about a file in another language.
 std::vector<Finding> refuse(const WorkItem &item) {
-  const auto rule = std::find_if(item.profile->rules.begin(), item.profile->rules.end(),
-                                 [](const Rule *candidate) { return candidate->info.name == kForeignLanguageRule; });
-  FEEDHOLD_CHECK(rule != item.profile->rules.end(), "a foreign file came through without the rule that reports it");
-  RawFinding finding{&(*rule)->info, (*rule)->info.severity, {}};
-  finding.diagnostic.message = fmt::format("this is {}, which Feedhold does not read", item.foreign->name);
-  finding.diagnostic.span = firstLineWithText(item.source);
-  if (!item.reasons.empty())
-    finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));
-  finding.diagnostic.notes.emplace_back(item.foreign->way);
-  Finding result = toFinding(std::move(finding), *item.profile);
+  Finding result = toFinding(refusalOf(item), *item.profile);
   result.fingerprint = fingerprintOfFile(*result.rule, pathText(item.path.filename()));
   return {std::move(result)};
 }

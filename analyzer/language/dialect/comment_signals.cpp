@@ -28,6 +28,12 @@ bool isFagorStatement(std::string_view text) {
   return isAssignment || isCondition || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
 }
 
+/// `(ORGX54=0, ORGZ54=90)`: the origin of G54 on an axis.
+bool isFagorOrigin(std::string_view text) {
+  return beginsUpper(text, "ORG") && text.size() > 6 && isLetter(text[3]) && text[4] == '5' && isDigit(text[5]) &&
+         text[6] == '=';
+}
+
 /// `(RPT,5)`, `(GTO,START,E1>5)`, `(CLS,PROG1)`: three letters and a comma.
 bool isOsaiStatement(std::string_view text) {
   static constexpr std::string_view kStatements[] = {"RPT,", "GTO,", "CLS,", "UGS,", "DIS,", "UAO,", "UTO,", "UOT,",
@@ -109,6 +115,12 @@ CommentLanguage scanComment(std::string_view comment, CommentPlace place, TextSc
   }
   if (place == CommentPlace::Alone && isOsaiStatement(text)) {
     count(TextSignal::OsaiStatement, scan);
+    return CommentLanguage::Foreign;
+  }
+  if (place == CommentPlace::Alone && isFagorOrigin(text)) {
+    constexpr int kCertain = 5; // the name says it: once is enough
+    for (int times = 0; times < kCertain; ++times)
+      count(TextSignal::FagorStatement, scan);
     return CommentLanguage::Foreign;
   }
   if (place == CommentPlace::Alone && isFagorStatement(text)) {

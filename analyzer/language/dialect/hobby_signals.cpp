@@ -1,4 +1,5 @@
-// Printers and hobby controls: messages, heaters, texts in quotes, and names that the control or a slicer replaces.
+// Printers, hobby controls and small controls: codes of their own, messages, heaters, texts in quotes, and names that
+// the control or a slicer replaces.
 #include "language/dialect/line_scanner.h"
 
 #include <algorithm>
@@ -60,6 +61,17 @@ void LineScanner::scanString() {
   else
     hasUnknown_ = true;
   at_ = end == std::string_view::npos ? line_.size() : end + 1;
+}
+
+/// `G64 P0.01`, `G96 D2500 S150`, and `G7` where no word beside it makes it another function.
+bool LineScanner::isNgcLine() const {
+  const bool isDiameterMode = gCodes_[7] && (letters_ & ~lettersOf("GNMFST")) == 0;
+  return (hasG64_ && hasNumber('P')) || (hasG96_ && hasLetter('D') && hasLetter('S')) || isDiameterMode;
+}
+
+/// `G47 P0 (TEXT) X2. Y2. I45. J.5 R.05 Z-.005 F15. E10.`
+bool LineScanner::isEngraving() const {
+  return gCodes_[47] && hasNumber('P') && hasLetter('J') && hasLetter('Z') && !hasLetter('D');
 }
 
 } // namespace feedhold

@@ -17,6 +17,9 @@ bool isCamelCase(std::string_view word) {
 } // namespace
 
 void LineScanner::scanHead() {
+  if (scanMachineHead())
+    return;
+  scanLabelP();
   if (peek() == '/') {
     ++at_;
     if (isDigit(peek()))
@@ -157,6 +160,11 @@ void LineScanner::scanDollar() {
     return;
   }
   const std::string_view run = takeRun();
+  if ((equalsUpper(run, "DO") || equalsUpper(run, "AO")) && isDigit(peek())) { // `$DO0.1=0`: an output
+    count(TextSignal::AerotechStatement);
+    stop();
+    return;
+  }
   const bool isPath = run.size() > 1 && peek() == '/' && isLetter(peek(1));
   const bool isReading = peek() == '=' && beginsUpper(rest().substr(1), "READ"); // `$TCS=READ id=0`: uCNC
   const bool isCommand = isReading || (isOneOf(run, kGrbl) && (atEnd() || peek() == '=' || isBlank(peek())));

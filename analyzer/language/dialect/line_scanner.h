@@ -126,6 +126,13 @@ private:
   bool scanErosion(char letter, const Number &number);
   void scanErosionTool(const Number &number);
   std::size_t conditionNumbers() const;
+  bool isBufferHead() const;
+  bool isDrillHead() const;
+  bool isRobotLine() const;
+  bool isXilogLine() const;
+  bool scanMachineHead();
+  void scanLabelP();
+  void noteContour();
   void scanAt();
   bool isTurningCycle() const;
   void countLatheMarks();
@@ -192,6 +199,8 @@ private:
   bool hasCLike_ = false;       // an operator that Macro B does not have
   bool hasBareDo_ = false;      // `DO` without a number, at the end
   bool hasG64_ = false;
+  std::uint32_t contourFirst_ = 0; // P
+  std::uint32_t contourLast_ = 0;  // Q
 };
 
 } // namespace feedhold

@@ -106,6 +106,11 @@ void LineScanner::scanLongRun(std::string_view run) {
   }
   if (scanPair(run))
     return;
+  if (equalsUpper(run, "TC") && hasNumber('T') && isDigit(peek())) {
+    count(TextSignal::TrainingTool);
+    takeNumber();
+    return;
+  }
   if ((equalsUpper(run, "XH") || equalsUpper(run, "YH")) && isDigit(peek())) {
     count(TextSignal::ErosionValue);
     hasWord_ = true;
@@ -139,6 +144,12 @@ void LineScanner::scanJammed(std::string_view run) {
   }
   const bool areAxes = left.find_first_not_of("XYZUVWABCxyzuvwabc") == std::string_view::npos;
   if (left.size() > 1 && !areAxes) {
+    hasUnknown_ = true;
+    return;
+  }
+  constexpr std::string_view kValue = "0123456789.#[=+-";
+  const bool isProse = size == 1 && left.size() == 1 && kValue.find(peek()) == std::string_view::npos; // `cycles`
+  if (isProse && found[0]->kind == KeywordKind::Signal) {
     hasUnknown_ = true;
     return;
   }
@@ -330,6 +341,8 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
     if (!hasCode_ && number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
       count(TextSignal::HeidenhainIsoBlock);
     return;
+  case 'P': contourFirst_ = number.whole; return;
+  case 'Q': contourLast_ = number.whole; return;
   case 'E': hasOffsetE_ = !number.hasFraction && number.digits <= 2 && line_[after - 1] != '.'; return;
   case 'L': hasSubprogramL_ = !number.hasFraction && number.digits >= 3 && line_[after - 1] != '.'; return;
   case 'T':
@@ -531,6 +544,7 @@ void LineScanner::countCombinations() {
     note(TextSignal::HuazhongIf);
   if (hasG65_ && hasLetter('P'))
     count(TextSignal::MacroCall);
+  noteContour();
   if (hasProbing_ && hasNumber('P'))
     count(TextSignal::PrinterProbe);
   if (hasM98_ && hasLetter('P'))
@@ -566,17 +580,6 @@ void LineScanner::countCombinations() {
     countLatheMarks();
     countGCodeSystem();
   }
-}
-
-/// `G64 P0.01`, `G96 D2500 S150`, and `G7` where no word beside it makes it another function.
-bool LineScanner::isNgcLine() const {
-  const bool isDiameterMode = gCodes_[7] && (letters_ & ~lettersOf("GNMFST")) == 0;
-  return (hasG64_ && hasNumber('P')) || (hasG96_ && hasLetter('D') && hasLetter('S')) || isDiameterMode;
-}
-
-/// `G47 P0 (TEXT) X2. Y2. I45. J.5 R.05 Z-.005 F15. E10.`
-bool LineScanner::isEngraving() const {
-  return gCodes_[47] && hasNumber('P') && hasLetter('J') && hasLetter('Z') && !hasLetter('D');
 }
 
 void LineScanner::sortLine() {

@@ -80,6 +80,19 @@ bool hasCodes(const TextScan &scan) {
          std::any_of(std::begin(kOwn), std::end(kOwn), [&scan](TextSignal signal) { return scan.count(signal) != 0; });
 }
 
+bool namesControl(const TextScan &scan) {
+  constexpr TextSignal kNames[] = {TextSignal::FanucComment,
+                                   TextSignal::FanucSeries0Comment,
+                                   TextSignal::FanucSeries30Comment,
+                                   TextSignal::HaasComment,
+                                   TextSignal::MitsubishiComment,
+                                   TextSignal::NgcComment,
+                                   TextSignal::FanucName,
+                                   TextSignal::HaasName,
+                                   TextSignal::MitsubishiName};
+  return std::any_of(std::begin(kNames), std::end(kNames), [&scan](TextSignal name) { return scan.count(name) != 0; });
+}
+
 /// Languages with names of their own choosing have many lines that only partly speak to us.
 bool hasForeignLines(const TextScan &scan) { return (scan.programLines + scan.signalLines) * 2 >= scan.otherLines; }
 
@@ -104,6 +117,7 @@ LanguageGuess guessLanguage(std::string_view text, std::string_view path, const 
   if (scan.isMarkup || scan.isBinary)
     return guess;
   guess.hasCodes = hasCodes(scan);
+  guess.namesControl = namesControl(scan);
   guess.isNamedForMilling = scan.count(TextSignal::MillName) != 0 && scan.count(TextSignal::LatheName) == 0;
   guess.hasJumps = scan.count(TextSignal::MacroControl) != 0 && scan.count(TextSignal::OWord) == 0;
   std::vector<int> scores = scoresOf(scan, registry);

@@ -31,10 +31,11 @@ struct LanguageGuess {
   bool isNamedForMilling = false;           // by its file name or its folder
   bool hasJumps = false;                    // `IF`, `GOTO`, `WHILE`, `DO` without o-words
   bool hasCodes = false;                    // holds what only NC programs hold, not just words such as `T1 X5`
-  GuessBasis basis = GuessBasis::Nothing;   // Nothing: the text fits several controls alike
-  std::vector<std::string_view> reasons;    // the signals that decided, strongest first
-  const ForeignLanguage *kin = nullptr;     // of a program that is read: a language that it may as well be written in
-  std::vector<int> scores;                  // of the dialects, in their order; of a program that is read
+  bool namesControl = false;              // a remark, the file or its folder names the maker of a control that is read
+  GuessBasis basis = GuessBasis::Nothing; // Nothing: the text fits several controls alike
+  std::vector<std::string_view> reasons;  // the signals that decided, strongest first
+  const ForeignLanguage *kin = nullptr;   // of a program that is read: a language that it may as well be written in
+  std::vector<int> scores;                // of the dialects, in their order; of a program that is read
   std::optional<GCodeSystem> gCodeSystem = {}; // of a lathe, where the text shows it
 };
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace feedhold {
 
@@ -26,7 +27,8 @@ struct TextScan {
   std::uint32_t signalLines = 0;  // hold some signal, and something else that is not understood
   std::uint32_t otherLines = 0;   // prose, another format, another language
   std::uint32_t codeLines = 0;    // hold a G or M code: tables of tools and of offsets have none
-  bool isMarkup = false;          // Markdown, HTML, JSON, source code: by its name or its first bytes
+  std::pair<std::uint32_t, std::uint32_t> contour = {0, 0}; // P and Q of the last turning cycle
+  bool isMarkup = false; // Markdown, HTML, JSON, source code: by its name or its first bytes
   bool isBinary = false;
 
   std::uint32_t count(TextSignal signal) const { return counts[static_cast<std::size_t>(signal)]; }

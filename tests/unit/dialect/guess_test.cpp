@@ -399,7 +399,24 @@ TEST(Guess, TheFolderTellsTheGCodeSystem) {
   EXPECT_EQ(vote.decide(neutral).gCodeSystem, std::nullopt);
 }
 
+TEST(Guess, MachinesThatAreNotForNcPrograms) {
+  EXPECT_EQ(guessed("CLOSE\nOPEN PROG 12\nCLEAR\nLINEAR\nABS\nX10Y20\nDWELL0\nCLOSE\n"),
+            "a program for a PMAC motion controller (Delta Tau)");
+  EXPECT_EQ(guessed("M48\nINCH,TZ\nT1C0.0310\n%\nT1\nX0100Y0100\nM30\n"), "an Excellon drill file");
+  EXPECT_EQ(guessed("$DO0.0=1\nG1 X10 F20\n$DO0.0=0\nDVAR $gap\n"), "AeroBasic of an Aerotech controller");
+}
+
+TEST(Guess, LabelsByP) {
+  const std::string contour = "P10 G01 X20 Z0\nZ-15\nP20 X60\nG70 P10 Q20\nM30\n";
+  EXPECT_EQ(guessed("G96 S120 M3\nG71 P10 Q20 D2. F0.2\n" + contour),
+            "a program for a simulator whose labels are P words");
+  EXPECT_NE(guessed("G96 S120 M3\nG71 P10 Q30 D2. F0.2\n" + contour),
+            "a program for a simulator whose labels are P words");
+}
+
 TEST(Guess, OneStrayWordRefusesNothing) {
+  EXPECT_EQ(guessed("M303 E0 C8 S210\nAuto-tune at 210 C for 8 cycles:\nG28\nG90\nM303 for 8 cycles:\n"), "fanuc-30i");
+
   EXPECT_EQ(guessed("O1\n#1=5\nIF[#1==5]GOTO10\nN10G0X1.\nM30\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1(MSG, CHECK)\n#1=5\nG65P9000A#1\nM30\n"), "fanuc-30i");
 }

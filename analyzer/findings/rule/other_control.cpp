@@ -1,7 +1,7 @@
 // See the header.
-#include "rules/variables/other_control.h"
+#include "findings/rule/other_control.h"
 
-namespace feedhold::rules {
+namespace feedhold {
 namespace {
 
 constexpr std::size_t kForeignCodes = 2; // one is the builder's own on many machines
@@ -46,4 +46,4 @@ bool seemsForOtherControl(const FileContext &context) {
   return isOfOtherControl(variables, codes) || variables.size() >= kForeignVariables || codes.size() >= kForeignCodes;
 }
 
-} // namespace feedhold::rules
+} // namespace feedhold

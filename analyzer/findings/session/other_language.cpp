@@ -1,0 +1,77 @@
+#include "findings/session/other_language.h"
+
+#include "base/support/check.h"
+#include "base/support/text.h"
+#include "findings/rule/other_control.h"
+#include "findings/rule/suppression.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace feedhold {
+namespace {
+
+/// Null where it was switched off.
+const RuleInfo *foreignLanguageRule(const Profile &profile) {
+  const auto rule = std::find_if(profile.rules.begin(), profile.rules.end(),
+                                 [](const Rule *candidate) { return candidate->info.name == kForeignLanguageRule; });
+  return rule == profile.rules.end() ? nullptr : &(*rule)->info;
+}
+
+Span firstLineWithText(const SourceFile &source) {
+  for (std::uint32_t line = 1; line <= source.lineCount(); ++line)
+    if (const Span span = source.lineSpan(line); !trimmed(source.text(span)).empty())
+      return span;
+  return {};
+}
+
+std::string_view describe(ForeignHabit habit) {
+  switch (habit) {
+  case ForeignHabit::SlashRemark: return "`//` or `/` begins remarks";
+  case ForeignHabit::QuoteRemark: return "`'` begins remarks";
+  case ForeignHabit::LongRemark: return "remarks go over several lines";
+  case ForeignHabit::DecimalComma: return "numbers have a comma for the point";
+  case ForeignHabit::Checksum: return "blocks end with a checksum";
+  }
+  FEEDHOLD_UNREACHABLE("a habit of other languages");
+}
+
+} // namespace
+
+RawFinding refusalOf(const WorkItem &item) {
+  const RuleInfo *rule = foreignLanguageRule(*item.profile);
+  FEEDHOLD_CHECK(rule != nullptr, "a foreign file came through without the rule that reports it");
+  RawFinding finding{rule, rule->severity, {}};
+  finding.diagnostic.message = fmt::format("this is {}, which Feedhold does not read", item.foreign->name);
+  finding.diagnostic.span = firstLineWithText(item.source);
+  if (!item.reasons.empty())
+    finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));
+  finding.diagnostic.notes.emplace_back(item.foreign->way);
+  return finding;
+}
+
+std::optional<RawFinding> doubtOf(const WorkItem &item, const FileContext &context) {
+  const RuleInfo *rule = foreignLanguageRule(*item.profile);
+  // Who writes suppressions has settled how the program is read.
+  if (item.isNamed || rule == nullptr || !findSuppressions(context).empty())
+    return std::nullopt;
+  const std::optional<UnreadText> text = unreadTextOf(context);
+  if (!text)
+    return std::nullopt;
+  const std::string why = text->habit ? fmt::format(": {}", describe(*text->habit)) : "";
+  return RawFinding{
+      rule,
+      Severity::Warning,
+      {.message = fmt::format("{} of {} blocks cannot be read as a program for {}{}", text->unread, text->blocks,
+                              context.dialect.id, why),
+       .span = text->first,
+       .label = "the first of them",
+       .notes = {"the program seems to be for another control, so nothing else is reported",
+                 fmt::format("if {0} is right, name it with `--dialect {0}` or in feedhold.toml to see every error",
+                             context.dialect.id),
+                 "if Feedhold does not read its language, exclude the file"}}};
+}
+
+} // namespace feedhold
