@@ -45,7 +45,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
   const Expression &expression = context.tree().expressions[target];
   if (const auto *numbered = std::get_if<NumberedVariable>(&expression.node)) {
     const auto number = numbered->number.asInteger();
-    if (number && *number >= 0 && *number < kFirstNamedVariable)
+    if (number && *number >= 0 && *number < kFirstPredefinedName)
       return writeVariable(context, static_cast<std::uint32_t>(*number), std::move(value), expression.span);
   } else if (const auto *indirect = std::get_if<IndirectVariable>(&expression.node)) {
     const auto index = evaluate(context, indirect->index);
@@ -66,7 +66,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
 template <ValueAlgebra R> void introduceName(StepContext<R> &context, ExpressionId target) {
   const auto *named = std::get_if<NamedVariable>(&context.tree().expressions[target].node);
   const auto number = named ? context.programs.variableOf(context.file.file, named->name) : std::nullopt;
-  if (number)
+  if (number && *number >= kFirstNamedVariable)
     context.state.variables.set(*number, context.interpretation.asNumber(storedValue(context, *number)));
 }
 
@@ -114,7 +114,7 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
 
 template <ValueAlgebra R>
 void setNamed(StepContext<R> &context, std::string_view name, const typename R::Value &value) {
-  if (const auto number = context.programs.variableNamed(name))
+  if (const auto number = context.programs.usesName(name) ? context.programs.variableNamed(name) : std::nullopt)
     context.state.variables.set(*number, value);
 }
 
