@@ -256,6 +256,8 @@ private:
   AbstractValue *cellOf(std::uint32_t number) {
     if (isPredefinedName(number))
       number = feedhold::cellOf(context_.dialect(), number);
+    if (context_.programs.isInputName(number))
+      return nullptr; // read anew each time
     const VariableRange *range = number >= kFirstNamedVariable ? nullptr : findVariable(context_.dialect(), number);
     if (number < kFirstNamedVariable && !range)
       return nullptr;

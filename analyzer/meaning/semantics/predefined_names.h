@@ -3,6 +3,8 @@
 
 #include "meaning/semantics/context.h"
 
+#include <vector>
+
 namespace feedhold::detail {
 
 /// A number as the range of the name allows it.
@@ -29,20 +31,30 @@ template <ValueAlgebra R> typename R::Truth isCodeInForce(StepContext<R> &contex
   return context.interpretation.isOneOf(context.state.codes[code.group], CodeMask{1} << *context.modes.indexOf(code));
 }
 
+/// What follows such a code is no code to the control: behind G5 the motion code is as before, behind G5.3 there is
+/// none (tried on rs274).
+inline bool hasOwnNumber(const Code &code) {
+  return code.action != CodeAction::OtherCurve && code.action != CodeAction::OtherCycle &&
+         code.action != CodeAction::Unmodelled;
+}
+
 /// Ten times the number of the code in force in the group of the code, or of its whole part.
 template <ValueAlgebra R>
 typename R::Value numberInForce(StepContext<R> &context, const PredefinedName &name, const Code &ofGroup) {
   R &interpretation = context.interpretation;
-  const auto &codes = context.modes.group(ofGroup.group).codes;
   const auto numberOf = [&](const Code &code) {
     const int tenths = code.tenths;
     return interpretation.number(name.source == NameSource::CodeWhole ? tenths - tenths % 10 : tenths);
   };
+  std::vector<const Code *> codes;
   CodeMask all = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i)
-    all |= CodeMask{1} << i;
-  const auto &inForce = context.state.codes[ofGroup.group];
-  auto value = context.certain(interpretation.isOneOf(inForce, all))
+  for (const Code *code : context.modes.group(ofGroup.group).codes)
+    if (hasOwnNumber(*code)) {
+      codes.push_back(code);
+      all |= CodeMask{1} << *context.modes.indexOf(*code);
+    }
+  const auto isAmong = interpretation.isOneOf(context.state.codes[ofGroup.group], all);
+  auto value = context.certain(isAmong) && !codes.empty()
                    ? numberOf(*codes.back())
                    : withinRange(context, name.range, interpretation.notFollowed(name.row.first));
   for (const Code *code : codes)

@@ -157,8 +157,11 @@ template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCo
   auto &counters = context.state.counters;
   if (counters.size() <= start.counter.index())
     counters.resize(start.counter.index() + 1, context.zero());
-  const auto times = context.interpretation.asNumber(evaluate(context, start.times));
-  counters[start.counter.index()] = context.interpretation.roundTo(times, Decimal(1, 0));
+  R &interpretation = context.interpretation;
+  const auto times = evaluate(context, start.times);
+  const auto rounded = interpretation.roundTo(interpretation.asNumber(times), Decimal(1, 0));
+  counters[start.counter.index()] = interpretation.select(interpretation.isVacant(times), interpretation.number(1),
+                                                          rounded); // a word that is dropped
 }
 
 template <ValueAlgebra R> void havocVariables(StepContext<R> &context, const HavocVariables &unread) {
