@@ -18,3 +18,9 @@
 #ifndef ALARM_NUMBER
 #define ALARM_NUMBER(kind, number) AlarmNumber{AlarmKind::kind, number},
 #endif
+#ifndef PREDEFINED
+#define PREDEFINED(name, source, detail, range, meaning)                                                               \
+  PredefinedName{VariableRange{0, 0, VariableKind::System, VariableAccess::ReadOnly, VariableStart::Unknown,           \
+                               VariableOption::Always, VariableRole::Predefined, name, meaning},                       \
+                 NameSource::source, detail, NameRange::range},
+#endif

@@ -38,4 +38,16 @@ template <typename Row, std::size_t... Sizes> consteval auto merged(const std::a
   return sorted(joined(tables...));
 }
 
+/// Sorted by name; each gets the number of its place.
+template <std::size_t N> consteval std::array<PredefinedName, N> predefined(std::array<PredefinedName, N> names) {
+  std::sort(names.begin(), names.end(),
+            [](const PredefinedName &a, const PredefinedName &b) { return a.row.name < b.row.name; });
+  for (std::size_t i = 0; i < N; ++i) {
+    if (i > 0 && names[i].row.name == names[i - 1].row.name)
+      throw "two rows of one name";
+    names[i].row.first = names[i].row.last = kFirstPredefinedName + static_cast<std::uint32_t>(i);
+  }
+  return names;
+}
+
 } // namespace feedhold

@@ -20,6 +20,11 @@ constexpr auto kVariables = sorted(std::array{
 #include "dialects/linuxcnc/variables.def"
 });
 
+#include "dialects/common/rows.h"
+constexpr auto kPredefinedNames = predefined(std::array{
+#include "dialects/linuxcnc/predefined_names.def"
+});
+
 /// M100 to M199 run a program of that name beside the control.
 consteval std::array<Code, 100> userMCodes() {
   std::array<Code, 100> codes{};
@@ -65,65 +70,6 @@ constexpr std::array kHints = {
     LanguageHint{TextSignal::MacroAlarm, -30},  LanguageHint{TextSignal::NumberedLoop, -30},
     LanguageHint{TextSignal::MacroBranch, -60}, LanguageHint{TextSignal::NgcComment, 16},
 };
-
-/// Of the control itself, as `rs274` refuses to set them.
-constexpr std::array<std::string_view, 57> kReadOnlyNames = {"_a",
-                                                             "_abs_a",
-                                                             "_abs_b",
-                                                             "_abs_c",
-                                                             "_abs_x",
-                                                             "_abs_y",
-                                                             "_abs_z",
-                                                             "_absolute",
-                                                             "_adaptive_feed",
-                                                             "_b",
-                                                             "_c",
-                                                             "_call_level",
-                                                             "_ccomp",
-                                                             "_coord_system",
-                                                             "_current_pocket",
-                                                             "_current_tool",
-                                                             "_feed",
-                                                             "_feed_hold",
-                                                             "_feed_override",
-                                                             "_flood",
-                                                             "_ijk_absolute_mode",
-                                                             "_imperial",
-                                                             "_incremental",
-                                                             "_inverse_time",
-                                                             "_lathe_diameter_mode",
-                                                             "_lathe_radius_mode",
-                                                             "_line",
-                                                             "_metric",
-                                                             "_metric_machine",
-                                                             "_mist",
-                                                             "_motion_mode",
-                                                             "_plane",
-                                                             "_remap_level",
-                                                             "_retract_old_z",
-                                                             "_retract_r_plane",
-                                                             "_rpm",
-                                                             "_selected_pocket",
-                                                             "_selected_tool",
-                                                             "_speed_override",
-                                                             "_spindle_css_mode",
-                                                             "_spindle_cw",
-                                                             "_spindle_on",
-                                                             "_spindle_rpm_mode",
-                                                             "_task",
-                                                             "_tool_offset",
-                                                             "_u",
-                                                             "_units_per_minute",
-                                                             "_units_per_rev",
-                                                             "_v",
-                                                             "_value",
-                                                             "_value_returned",
-                                                             "_vmajor",
-                                                             "_vminor",
-                                                             "_w",
-                                                             "_x",
-                                                             "_y",
-                                                             "_z"};
 
 /// Every number may be written with a point: an integer word takes any value within 0.0001 of one.
 constexpr std::array<AddressFormat, 26> addresses() {
@@ -196,6 +142,7 @@ Behaviour behaviour() {
   behaviour.cutterCorners = CutterCorners::Arcs;
   behaviour.cutterEntry = CutterEntry::ByItself;
   behaviour.cutterDiameterCodes = {411, 421};
+  behaviour.positionIsOfCutter = true;
   behaviour.stopsAtStrayWords = true;
   behaviour.equalTolerance = 1e-4;
   behaviour.arcTolerance = 0.0282843; // interp_internal.hh, as the interpreter measures it
@@ -233,7 +180,9 @@ const Dialect &linuxcnc() {
     dialect.switches.setEndsLocal = Switch::Off;    // G52 and G92 are one offset
     dialect.switches.mlg = Switch::On;              // a relation is a number, so AND and OR join conditions
     dialect.hints = kHints;
-    dialect.readOnlyNames = kReadOnlyNames;
+    dialect.predefinedNames = kPredefinedNames;
+    dialect.inputNames = "_hal[";
+    dialect.settingNames = "_ini[";
     return dialect;
   }();
   return kDialect;

@@ -16,13 +16,7 @@ std::string contents(const VariableRange &range) {
 void checkName(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
   const Expression &expression = context.tree.expressions[use.expression];
   const auto *named = use.write ? std::get_if<NamedVariable>(&expression.node) : nullptr;
-  if (!named || context.dialect.readOnlyNames.empty())
-    return;
-  std::string name;
-  for (const char each : context.text(named->name))
-    if (each != ' ' && each != '\t' && each != '<' && each != '>')
-      name += static_cast<char>('A' <= each && each <= 'Z' ? each - 'A' + 'a' : each);
-  if (std::ranges::binary_search(context.dialect.readOnlyNames, name))
+  if (named && predefinedNamed(context.dialect, comparedName(context.text(named->name))))
     reporter.report({.message = fmt::format("{} can only be read, not written", context.quoted(expression.span)),
                      .span = expression.span,
                      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),

@@ -6,6 +6,10 @@ import math
 import random
 
 PLANES = {"g17": ("x", "y", "z", "i", "j"), "g18": ("z", "x", "y", "k", "i"), "g19": ("y", "z", "x", "j", "k")}
+# What the machine follows.
+PREDEFINED = ["_x", "_y", "_z", "_X", "_a", "_abs_x", "_abs_z", "_metric", "_imperial", "_absolute", "_incremental", "_plane",
+              "_coord_system", "_ccomp", "_units_per_minute", "_inverse_time", "_spindle_rpm_mode", "_ijk_absolute_mode",
+              "_lathe_radius_mode", "_value", "_value_returned", "_task"]
 DEEPEST_BLOCK = 3
 DEEPEST_EXPRESSION = 3
 LONGEST_LINE = 250  # the interpreter refuses 256
@@ -67,6 +71,8 @@ class Expressions(Writer):
         return text
 
     def any_expression(self, depth):
+        if self.chance(0.05):
+            return f"#<{self.pick(*PREDEFINED)}>"
         if depth == 0 or self.chance(0.2):
             return self.literal() if self.chance(0.5) else self.variable()
         kind = self.random.random()

@@ -66,8 +66,30 @@ private:
     if (random_.oneIn(25))
       return "#[" + expression(1) + "]";
     if (random_.oneIn(25))
-      return random_.of<const char *>({"#5420", "#5421", "#5221", "#5220", "#5211", "#5061", "#5161", "#<_x>",
-                                       "#<_metric>", "#<_absolute>", "#5070", "#5400", "#<_value>", "#<_call_level>"});
+      return random_.of<const char *>({"#5420",
+                                       "#5421",
+                                       "#5221",
+                                       "#5220",
+                                       "#5211",
+                                       "#5061",
+                                       "#5161",
+                                       "#<_x>",
+                                       "#<_metric>",
+                                       "#<_absolute>",
+                                       "#5070",
+                                       "#5400",
+                                       "#<_value>",
+                                       "#<_call_level>",
+                                       "#<_motion_mode>",
+                                       "#<_plane>",
+                                       "#<_abs_x>",
+                                       "#<_feed>",
+                                       "#<_retract_r_plane>",
+                                       "#<_y>",
+                                       "#<_coord_system>",
+                                       "#<_value_returned>",
+                                       "#<_task>",
+                                       "#<_flood>"});
     return random_.of<const char *>({"#1", "#2", "#3", "#1", "#30", "#100", "#101", "#500", "#<depth>", "#<step>",
                                      "#<_speed>", "#<_total>", "#<a b>"});
   }

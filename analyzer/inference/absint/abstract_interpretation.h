@@ -122,6 +122,7 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable) const;
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
+  Value notFollowed(std::uint32_t) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void havocVariables(State &state, std::uint32_t first, std::uint32_t last);

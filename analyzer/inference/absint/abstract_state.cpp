@@ -249,7 +249,9 @@ void AbstractInterpretation::havoc(State &state, std::string_view reason, Span p
     return setMotionCode(state, *dialect_, static_cast<std::uint16_t>(digit - kUnreadMotionCodes.begin()));
   if (reason == kUnreadMovement && state.modalCalls.empty() && !mayBeTrue(state.modalCallsUnknown))
     return forgetMovement(*this, state, *dialect_);
-  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});
+  const bool hasNone = state.modalCalls.empty() && !mayBeTrue(state.modalCallsUnknown);
+  const bool keepsModalCalls = !hasModalCalls(*dialect_) || (hasNone && reason == kUnreadWithoutCall);
+  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = keepsModalCalls});
 }
 
 namespace {

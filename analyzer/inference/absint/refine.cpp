@@ -247,14 +247,24 @@ private:
     }
     return number ? cellOf(*number) : nullptr;
   }
+  /// Not the coordinate that the state keeps.
+  bool readsOther() const {
+    const auto always = context_.interpretation.truth(true);
+    return context_.behaviour().positionIsOfCutter &&
+           !context_.certain(context_.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always));
+  }
   AbstractValue *cellOf(std::uint32_t number) {
+    if (isPredefinedName(number))
+      number = feedhold::cellOf(context_.dialect(), number);
+    if (context_.programs.isInputName(number))
+      return nullptr; // read anew each time
     const VariableRange *range = number >= kFirstNamedVariable ? nullptr : findVariable(context_.dialect(), number);
     if (number < kFirstNamedVariable && !range)
       return nullptr;
     if (range && range->kind == VariableKind::Local && number <= kLocalVariables)
       return &state_.locals[number];
     if (range && (range->role == VariableRole::BlockEndPosition || range->role == VariableRole::WorkPosition))
-      return number - range->first < kAxisCount ? &state_.position[number - range->first] : nullptr;
+      return !readsOther() && number - range->first < kAxisCount ? &state_.position[number - range->first] : nullptr;
     if (range && range->role != VariableRole::Plain && range->role != VariableRole::Stored)
       return nullptr;
     if (range && (findBitWord(context_.dialect(), number) || feedhold::cellOf(context_.dialect(), number) != number))

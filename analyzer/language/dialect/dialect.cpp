@@ -116,7 +116,21 @@ std::optional<std::uint32_t> workOffsetsBefore(const Dialect &dialect, std::uint
       dialect.gCodes, [&](const Code &each) { return each.action == CodeAction::WorkOffset && each.tenths < tenths; }));
 }
 
+const PredefinedName *findPredefinedName(const Dialect &dialect, std::uint32_t number) {
+  const bool isOne = isPredefinedName(number) && number - kFirstPredefinedName < dialect.predefinedNames.size();
+  return isOne ? &dialect.predefinedNames[number - kFirstPredefinedName] : nullptr;
+}
+
+std::optional<std::uint32_t> predefinedNamed(const Dialect &dialect, std::string_view name) {
+  const auto nameOf = [](const PredefinedName &each) { return each.row.name; };
+  const auto found = std::ranges::lower_bound(dialect.predefinedNames, name, {}, nameOf);
+  return found != dialect.predefinedNames.end() && found->row.name == name ? std::optional(found->row.first)
+                                                                           : std::nullopt;
+}
+
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) {
+  if (const PredefinedName *name = findPredefinedName(dialect, number))
+    return &name->row;
   const VariableRange *range = findIn(dialect.variables, number);
   return range ? range : findIn(dialect.switches.buildersVariables, number);
 }
@@ -146,6 +160,8 @@ bool meets(VariableSpan a, VariableSpan b) { return a.first <= b.last && b.first
 } // namespace
 
 std::uint32_t cellOf(const Dialect &dialect, std::uint32_t number) {
+  if (const PredefinedName *name = findPredefinedName(dialect, number))
+    return name->source == NameSource::Variable ? name->detail : number;
   for (const CellAlias &alias : dialect.aliases)
     if (isSame(dialect, alias) == Switch::On)
       if (const auto cell = alias.cellOf(number))

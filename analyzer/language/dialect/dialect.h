@@ -66,6 +66,7 @@ enum class VariableRole : std::uint8_t {
   SecondReference,
   Pi,
   EulersNumber,
+  Predefined, // a name of the control: its PredefinedName says what it shows
 };
 
 struct VariableRange {
@@ -79,6 +80,31 @@ struct VariableRange {
   std::string_view name = {};    // `_ALM` where the control names it
   std::string_view meaning = {}; // "macro alarm"
 };
+
+/// What a name of the control shows (`#<_metric>`).
+enum class NameSource : std::uint8_t {
+  Variable,        // what the variable of this number holds
+  MachinePosition, // the machine coordinate of the axis of this index
+  CodeInForce,     // 1 while the code is in force, else 0
+  CodeTenths,      // ten times the number of the code in force in the group of this one
+  CodeWhole,       // ten times the whole part of that number
+  Kept,            // the same from read to read, but where the semantics says otherwise
+  NotFollowed,     // any number of its range at each read
+};
+enum class NameRange : std::uint8_t { Any, NotNegative, Flag };
+
+/// Read-only.  The number of the variable is that of its place in the table, from kFirstPredefinedName on.
+struct PredefinedName {
+  VariableRange row; // with the name, in small letters
+  NameSource source;
+  std::uint32_t detail; // number of the variable, index of the axis, or ten times the number of the code
+  NameRange range;
+};
+/// No text can write a number as high; names that programs choose begin behind (kFirstNamedVariable).
+inline constexpr std::uint32_t kFirstPredefinedName = 0x7f000000, kLastPredefinedName = 0x7fffffff;
+constexpr bool isPredefinedName(std::uint32_t variable) {
+  return kFirstPredefinedName <= variable && variable <= kLastPredefinedName;
+}
 
 /// When two numbers name one cell of the control.
 enum class AliasWhen : std::uint8_t {
@@ -355,6 +381,8 @@ struct Behaviour {
   CutterEntry cutterEntry = CutterEntry::ToNext;
   OffsetMemory cutterOffsets, lengthOffsets; // of D and of H; a length is the sum of both, whichever is the wear
   NoseMemory noseOffsets;                    // of T, on lathes
+  bool positionIsOfCutter =
+      false; // positions that a program reads are those of the compensated path, not the programmed
   std::array<std::uint16_t, 2> cutterDiameterCodes{}; // G41, G42 whose D is the diameter of the cutter itself
   /// Blocks that are read ahead under cutter compensation, the present one included; 0: as many as are needed.
   std::uint8_t cutterBlocks = 0;
@@ -409,7 +437,10 @@ struct Dialect {
   NumberModel numbers = NumberModel::Binary64; // unless f16 is on
   bool hasFanucParameters = false; // the numbers beside Switches are those of its manual, so messages name them
   std::span<const LanguageHint> hints;
-  std::span<const std::string_view> readOnlyNames = {}; // `#<_x>`: sorted, in small letters
+  std::span<const PredefinedName> predefinedNames = {}; // `#<_x>`: sorted by name
+  /// How names begin (`_hal[`, `_ini[`) that the machine gives a value, or does not: one may change at any time, the
+  /// other stays as it is.
+  std::string_view inputNames = {}, settingNames = {};
 };
 
 constexpr std::uint32_t kVacantVariable = 0;
@@ -434,7 +465,12 @@ const AddressFormat &formatOf(const Dialect &dialect, char address);
 /// Null for a code of the machine builder, whatever the control makes of its number.
 const Code *findGCode(const Dialect &dialect, std::uint16_t tenths);
 const Code *findMCode(const Dialect &dialect, std::uint16_t tenths);
+/// Names of the control have rows of their own (`row` of their PredefinedName).
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
+/// By the number of its variable; null: it is none.
+const PredefinedName *findPredefinedName(const Dialect &dialect, std::uint32_t number);
+/// The number of the variable; the name is in small letters.
+std::optional<std::uint32_t> predefinedNamed(const Dialect &dialect, std::string_view name);
 /// The first range with a role; null where the control has none.
 const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role);
 /// #5201 external offset, #5221 G54, #5241 G55 ..: one variable for each axis.

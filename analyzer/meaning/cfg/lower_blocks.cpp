@@ -5,6 +5,7 @@
 #include "language/model/block_facts.h"
 #include "language/model/contours.h"
 #include "language/model/unread_blocks.h"
+#include "meaning/cfg/computed_repeats.h"
 
 #include <algorithm>
 
@@ -120,13 +121,14 @@ void Lowering::wholeBlock(BlockId id) {
 /// The control stops with an alarm at what it cannot read, or else it may do anything; jumps, loops and ends that could
 /// be read may or may not take place.
 void Lowering::brokenBlock(const BlockWords &words) {
-  constexpr std::string_view kReason = "a block that could not be read";
+  const bool isApart = leavesModalCalls(source_, tree_, dialect_, block_);
+  const std::string_view reason = isApart ? kUnreadWithoutCall : kUnreadBlock;
   if (!mayNameWord(source_, tree_, block_))
-    emit(HavocVariables{kReason});
+    emit(HavocVariables{reason});
   else if (namesAxesAlone(source_, tree_, dialect_, block_))
     emit(Havoc{kUnreadMovement});
   else
-    emit(Havoc{kReason});
+    emit(Havoc{reason});
   flowStatements();
   if (!words.ending())
     return;
@@ -175,7 +177,16 @@ void Lowering::call(const Call &call) {
     return;
   }
   const auto index = static_cast<std::size_t>(&call - &model_.calls[CallId(0)]);
-  emit(CallProgram{CallId(index)});
+  const std::optional<ExpressionId> times = computedRepeats(tree_, call);
+  if (!times) {
+    emit(CallProgram{CallId(index)});
+    return;
+  }
+  const CounterId counter(cfg_.counters++);
+  emit(StartCount{counter, *times});
+  const NodeId head = emit(CountDown{counter, end().next()});
+  setNext(emit(CallProgram{CallId(index)}), head);
+  setNext(head, end());
 }
 
 /// H80 jumps, H81 to H86 jump on a comparison; the others compute and are left to the call itself.

@@ -153,6 +153,8 @@ void ProgramSet::findNames(const ProgramFile &file) {
       addNamesOf(file, *naming, namedNumbers_);
   if (!file.dialect->grammar.namedParameters)
     return;
+  if (!naming_)
+    naming_ = file.dialect;
   for (const Expression &expression : file.tree->expressions)
     if (const auto *named = std::get_if<NamedVariable>(&expression.node))
       names_.push_back(comparedName(file.source->text(named->name)));
@@ -267,17 +269,38 @@ std::optional<std::uint32_t> ProgramSet::variableOf(FileId id, Span span) const 
 }
 
 std::optional<std::uint32_t> ProgramSet::variableNamed(std::string_view canonical) const {
+  if (const auto predefined = naming_ ? predefinedNamed(*naming_, canonical) : std::nullopt)
+    return predefined;
   const auto known = std::lower_bound(names_.begin(), names_.end(), canonical);
   if (known == names_.end() || *known != canonical)
     return std::nullopt;
   return kFirstNamedVariable + static_cast<std::uint32_t>(known - names_.begin());
 }
 
+bool ProgramSet::usesName(std::string_view canonical) const {
+  return std::binary_search(names_.begin(), names_.end(), canonical);
+}
+
 std::string ProgramSet::nameOfVariable(std::uint32_t variable) const {
+  if (const PredefinedName *name = naming_ ? findPredefinedName(*naming_, variable) : nullptr)
+    return "#<" + std::string(name->row.name) + ">";
   if (variable < kFirstNamedVariable)
     return "#" + std::to_string(variable);
   FEEDHOLD_CHECK(variable - kFirstNamedVariable < names_.size(), "a named variable of another set");
   return "#<" + names_[variable - kFirstNamedVariable] + ">";
+}
+
+bool ProgramSet::hasNameFrom(std::uint32_t variable, std::string_view beginning) const {
+  return !beginning.empty() && variable >= kFirstNamedVariable && variable - kFirstNamedVariable < names_.size() &&
+         names_[variable - kFirstNamedVariable].starts_with(beginning);
+}
+
+bool ProgramSet::isInputName(std::uint32_t variable) const {
+  return naming_ && hasNameFrom(variable, naming_->inputNames);
+}
+
+bool ProgramSet::isSettingName(std::uint32_t variable) const {
+  return naming_ && hasNameFrom(variable, naming_->settingNames);
 }
 
 bool ProgramSet::isGlobalName(std::uint32_t variable) const {

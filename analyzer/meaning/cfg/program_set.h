@@ -108,10 +108,17 @@ public:
   /// the files, or, where the control has named parameters, one of the names from kFirstNamedVariable on.  Absent: no
   /// program of the set gives the name a meaning; a control may have been told it before.
   std::optional<std::uint32_t> variableOf(FileId file, Span name) const;
-  /// The same for a name in its canonical spelling; absent when no program writes it.
+  /// The same for a name of the control, or one that a program writes, in its canonical spelling; absent: there is
+  /// none.
   std::optional<std::uint32_t> variableNamed(std::string_view canonical) const;
-  /// `#<depth>` for numbers from kFirstNamedVariable on, else `#101`.
+  /// Some program writes the name, which is in its canonical spelling.
+  bool usesName(std::string_view canonical) const;
+  /// `#<depth>` for numbers from kFirstNamedVariable on and for names of the control, else `#101`.
   std::string nameOfVariable(std::uint32_t variable) const;
+  /// A name that the machine gives a value, or does not, and that may change at any time (`#<_hal[probe.in]>`).
+  bool isInputName(std::uint32_t variable) const;
+  /// The same of one that stays as it is (`#<_ini[axis_z]home>`).
+  bool isSettingName(std::uint32_t variable) const;
   /// A named variable that every program sees (`#<_depth>`).
   bool isGlobalName(std::uint32_t variable) const;
   /// A named variable that each level of calls has for itself (`#<depth>`).
@@ -120,6 +127,7 @@ public:
   std::vector<std::uint32_t> localNames() const;
 
 private:
+  bool hasNameFrom(std::uint32_t variable, std::string_view beginning) const;
   void findNames(const ProgramFile &file);
   void findModalCallees(const ProgramFile &from);
   void findWritten(const ProgramFile &file);
@@ -140,7 +148,8 @@ private:
   std::vector<std::uint32_t> written_; // sorted
   std::unordered_map<std::uint32_t, UseCounts> uses_;
   UnnumberedUses unnumbered_;
-  std::vector<std::string> names_;                                  // sorted; canonical spelling
+  const Dialect *naming_ = nullptr; // that of the first file whose control has named parameters
+  std::vector<std::string> names_;  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };
 

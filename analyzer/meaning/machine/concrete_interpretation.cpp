@@ -192,6 +192,14 @@ ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
   return Value::of((*script)[std::min(taken, script->size() - 1)]);
 }
 
+ConcreteValue ConcreteInterpretation::notFollowed(std::uint32_t variable) {
+  if (const Value *value = given_.find(variable))
+    return asNumber(*value);
+  notes_.push_back("a value of the control that is not followed");
+  passedUnmodelled_ = passedUnmodelled_ || !stopped_;
+  return Value::of(0);
+}
+
 void ConcreteInterpretation::holdInMantissa32(Value &result, Span place) {
   if (result.vacant)
     return;

@@ -153,6 +153,8 @@ public:
   std::span<const GivenVariables::Entry> allGiven() const { return given_.entries(); }
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
+  /// What is given, or 0: one of many things that may be there.
+  Value notFollowed(std::uint32_t variable);
   Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number
   bool writeAnyOf(State &, const Value &, const Value &, Span) const { return false; } // likewise
   void havocVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so

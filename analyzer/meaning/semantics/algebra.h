@@ -119,6 +119,8 @@ concept HasVariables = requires(R interpretation, const typename R::Value value,
   { interpretation.unwritten(state, variable) } -> std::same_as<typename R::Value>;
   /// A cell that may change between two reads: an input, a clock.
   { interpretation.volatileRead(variable) } -> std::same_as<typename R::Value>;
+  /// A cell of the control that nothing here keeps up with: any number.
+  { interpretation.notFollowed(variable) } -> std::same_as<typename R::Value>;
   /// A variable whose number is not one constant.
   { interpretation.readAnyOf(state, value, place) } -> std::same_as<typename R::Value>;
   /// Whether a zero point may have been written: then it has moved by a distance that is not known.

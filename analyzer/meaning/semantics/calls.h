@@ -1,6 +1,7 @@
 // Calls: what a call passes, and what a modal call remembers.
 #pragma once
 
+#include "meaning/cfg/computed_repeats.h"
 #include "meaning/semantics/executed_words.h"
 
 namespace feedhold {
@@ -203,6 +204,10 @@ private:
       request.repeats = interpretation_.number(call_.packed->repeats);
     if (call_.kind == CallKind::OWord)
       return; // has no words
+    if (computedRepeats(context_.tree(), call_)) {
+      request.repeats = interpretation_.number(1);
+      return;
+    }
     const Span code = context_.tree().words[call_.code].span();
     for (const Word &word : context_.tree().wordsOf(context_.block))
       if (word.address() == 'L' && word.form() == WordForm::Expression && word.span().begin > code.begin)

@@ -71,7 +71,7 @@ private:
     const std::optional<std::int64_t> number = variable.number.asInteger();
     if (number && *number < 0 && *number >= -0xffffffffLL) // reserved: no program text gives it (language/contract)
       return storedValue(context_, static_cast<std::uint32_t>(-*number));
-    if (!number || *number < 0 || *number >= kFirstNamedVariable)
+    if (!number || *number < 0 || *number >= kFirstPredefinedName)
       return interpretation_.anything(); // a bit of a setting (#30057.21), or no variable at all
     return readVariable(context_, static_cast<std::uint32_t>(*number), place);
   }

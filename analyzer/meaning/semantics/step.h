@@ -45,7 +45,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
   const Expression &expression = context.tree().expressions[target];
   if (const auto *numbered = std::get_if<NumberedVariable>(&expression.node)) {
     const auto number = numbered->number.asInteger();
-    if (number && *number >= 0 && *number < kFirstNamedVariable)
+    if (number && *number >= 0 && *number < kFirstPredefinedName)
       return writeVariable(context, static_cast<std::uint32_t>(*number), std::move(value), expression.span);
   } else if (const auto *indirect = std::get_if<IndirectVariable>(&expression.node)) {
     const auto index = evaluate(context, indirect->index);
@@ -66,7 +66,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
 template <ValueAlgebra R> void introduceName(StepContext<R> &context, ExpressionId target) {
   const auto *named = std::get_if<NamedVariable>(&context.tree().expressions[target].node);
   const auto number = named ? context.programs.variableOf(context.file.file, named->name) : std::nullopt;
-  if (number)
+  if (number && *number >= kFirstNamedVariable)
     context.state.variables.set(*number, context.interpretation.asNumber(storedValue(context, *number)));
 }
 
@@ -114,7 +114,7 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
 
 template <ValueAlgebra R>
 void setNamed(StepContext<R> &context, std::string_view name, const typename R::Value &value) {
-  if (const auto number = context.programs.variableNamed(name))
+  if (const auto number = context.programs.usesName(name) ? context.programs.variableNamed(name) : std::nullopt)
     context.state.variables.set(*number, value);
 }
 
@@ -157,8 +157,11 @@ template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCo
   auto &counters = context.state.counters;
   if (counters.size() <= start.counter.index())
     counters.resize(start.counter.index() + 1, context.zero());
-  const auto times = context.interpretation.asNumber(evaluate(context, start.times));
-  counters[start.counter.index()] = context.interpretation.roundTo(times, Decimal(1, 0));
+  R &interpretation = context.interpretation;
+  const auto times = evaluate(context, start.times);
+  const auto rounded = interpretation.roundTo(interpretation.asNumber(times), Decimal(1, 0));
+  counters[start.counter.index()] = interpretation.select(interpretation.isVacant(times), interpretation.number(1),
+                                                          rounded); // a word that is dropped
 }
 
 template <ValueAlgebra R> void havocVariables(StepContext<R> &context, const HavocVariables &unread) {

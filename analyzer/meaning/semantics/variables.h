@@ -1,6 +1,7 @@
 // Reading and writing variables, system variables included.
 #pragma once
 
+#include "meaning/semantics/predefined_names.h"
 #include "meaning/semantics/tool_length.h"
 #include "meaning/semantics/turret.h"
 
@@ -49,16 +50,55 @@ template <ValueAlgebra R> typename R::Value storedValue(StepContext<R> &context,
   return value ? *value : context.interpretation.unwritten(context.state, number);
 }
 
+/// The position of the axis in the coordinates in force, as a program reads it.
+template <ValueAlgebra R>
+typename R::Value presentPosition(StepContext<R> &context, Axis axis, std::uint32_t variable) {
+  R &interpretation = context.interpretation;
+  const auto compensates = interpretation.negation(
+      context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, interpretation.truth(true)));
+  if (context.behaviour().positionIsOfCutter && interpretation.mayBe(compensates))
+    return interpretation.select(compensates, interpretation.notFollowed(variable), context.state.at(axis));
+  if constexpr (requires { interpretation.readPosition(axis); })
+    interpretation.readPosition(axis);
+  return context.state.at(axis);
+}
+
+template <ValueAlgebra R>
+typename R::Value machinePosition(StepContext<R> &context, Axis axis, std::uint32_t variable) {
+  const auto here = presentPosition(context, axis, variable);
+  return context.interpretation.add(here, machineOriginOf(context, axis));
+}
+
 template <ValueAlgebra R>
 typename R::Value readPosition(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
   const std::uint32_t axis = number - range.first;
   if (axis >= kAxisCount)
     return context.interpretation.anyNumber();
-  if constexpr (requires { context.interpretation.readPosition(Axis::X); })
-    context.interpretation.readPosition(kAllAxes[axis]);
-  if (range.role != VariableRole::MachinePosition)
-    return context.state.position[axis];
-  return context.interpretation.add(context.state.position[axis], machineOriginOf(context, kAllAxes[axis]));
+  return range.role == VariableRole::MachinePosition ? machinePosition(context, kAllAxes[axis], number)
+                                                     : presentPosition(context, kAllAxes[axis], number);
+}
+
+/// A name that shows what another variable holds has no cell of its own.
+template <ValueAlgebra R> typename R::Value readPredefined(StepContext<R> &context, const PredefinedName &name) {
+  R &interpretation = context.interpretation;
+  const std::uint32_t number = name.row.first;
+  const Code *code = modalCode(context, name);
+  switch (name.source) {
+  case NameSource::MachinePosition: return machinePosition(context, kAllAxes[name.detail], number);
+  case NameSource::CodeInForce:
+    if (code)
+      return interpretation.select(isCodeInForce(context, *code), interpretation.number(1), context.zero());
+    break;
+  case NameSource::CodeTenths:
+  case NameSource::CodeWhole:
+    if (code)
+      return numberInForce(context, name, *code);
+    break;
+  case NameSource::Kept: return withinRange(context, name.range, interpretation.asNumber(storedValue(context, number)));
+  case NameSource::Variable:
+  case NameSource::NotFollowed: break;
+  }
+  return withinRange(context, name.range, interpretation.notFollowed(number));
 }
 
 /// The number whose bits are the variables of the row, where all of them are known.
@@ -116,8 +156,21 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::WorkPosition: return readPosition(context, range, number);
   case VariableRole::Pi: return interpretation.number(3.14159265358979323846);
   case VariableRole::EulersNumber: return interpretation.number(2.71828182845904523536);
+  case VariableRole::Predefined:
+    if (const PredefinedName *name = findPredefinedName(context.dialect(), number))
+      return readPredefined(context, *name);
+    break;
   }
   return interpretation.anything();
+}
+
+/// A name that a program chooses.  What the machine gives may change, but not whether it gives something.
+template <ValueAlgebra R> typename R::Value readNamed(StepContext<R> &context, std::uint32_t number) {
+  const auto stored = storedValue(context, number);
+  if (!context.programs.isInputName(number))
+    return stored;
+  return context.interpretation.select(context.interpretation.isVacant(stored), stored,
+                                       context.interpretation.volatileRead(number));
 }
 
 template <ValueAlgebra R> typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
@@ -125,7 +178,7 @@ template <ValueAlgebra R> typename R::Value readAsStored(StepContext<R> &context
   if (number == kVacantVariable)
     return interpretation.vacant();
   if (number >= kFirstNamedVariable)
-    return storedValue(context, number);
+    return readNamed(context, number);
   const VariableRange *range = findVariable(context.dialect(), number);
   if (!range) {
     interpretation.alarm(interpretation.truth(true), {AlarmKind::VariableNotAvailable, place});
@@ -222,6 +275,8 @@ template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context
 template <ValueAlgebra R>
 void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
   R &interpretation = context.interpretation;
+  if (number >= kFirstNamedVariable && (context.programs.isInputName(number) || context.programs.isSettingName(number)))
+    return interpretation.havoc(context.state, "an assignment to a name to which the machine may give a value", place);
   if (number >= kFirstNamedVariable)
     return context.state.variables.set(number, std::move(value));
   const VariableRange *range = findVariable(context.dialect(), number);

@@ -52,7 +52,7 @@ std::vector<VariableSpan> lostSpans(const Dialect &dialect, const std::set<std::
       next = *cell + 1;
     }
   }
-  lose(kFirstNamedVariable, kLastVariable);
+  lose(kFirstPredefinedName, kLastVariable); // `#<_value>`, too
   return lost;
 }
 

@@ -126,11 +126,13 @@ private:
 
   void settleStage(Stage &stage) { settleIn(contextOf(stage), stage.settled); }
 
+  /// Loops and the end of the program come first: many claims rest on them, and they need few of the steps that all
+  /// share.
   static void settleIn(const ProofContext &context, SettledRows &settled) {
-    settleAll(context, stopQuestions(context), settled);
-    settleAll(context, unmetAlarms(context), settled);
     settleLoops(context, settled);
     settleEnd(context, settled);
+    settleAll(context, stopQuestions(context), settled);
+    settleAll(context, unmetAlarms(context), settled);
     settleAll(context, promiseQuestions(context), settled);
     for (Obligation &row : settled.rows)
       if (row.kind == ObligationKind::AlarmIff && !context.decidedAs(row))

@@ -198,7 +198,8 @@ bool SymbolicInterpretation::isStored(VariableSpan span) const {
     case VariableRole::Reference:
     case VariableRole::SecondReference:
     case VariableRole::Pi:
-    case VariableRole::EulersNumber: return false;
+    case VariableRole::EulersNumber:
+    case VariableRole::Predefined: return false;
     }
     return false;
   };

@@ -205,6 +205,7 @@ public:
   Value vacant();
   Value anything() { return freshValue(MayBeVacant::Yes); }
   Value anyNumber() { return freshValue(MayBeVacant::No); }
+  Value notFollowed(std::uint32_t) { return anyNumber(); }
   Value asNumber(const Value &value) const { return {store_.no(), value.number}; }
   Truth isVacant(const Value &value) const { return {value.vacant}; }
   std::optional<double> constantOf(const Value &value) const;

@@ -1,4 +1,5 @@
 // Operations on whole states: the arbitrary start, havoc, the union of two states.
+#include "language/model/unread_blocks.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
 #include <algorithm>
@@ -86,7 +87,9 @@ void SymbolicInterpretation::join(State &state, Truth truth, const State &second
 void SymbolicInterpretation::havoc(State &state, std::string_view reason, Span place) {
   unmodelled(reason, place);
   Move<Value> anywhere{.kind = MoveKind::Unmodelled, .start = state.position};
-  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});
+  const bool hasNone = state.modalCalls.empty() && state.modalCallsUnknown.term == store_.no();
+  const bool keepsModalCalls = !hasModalCalls(*dialect_) || (hasNone && reason == kUnreadWithoutCall);
+  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = keepsModalCalls});
   anywhere.end = state.position;
   move(anywhere);
 }

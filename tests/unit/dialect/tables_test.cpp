@@ -69,6 +69,23 @@ TEST_P(EveryDialect, VariablesAreInOrderWithoutOverlap) {
   }
 }
 
+TEST_P(EveryDialect, PredefinedNamesAreInOrderAndReadOnly) {
+  const std::span<const PredefinedName> names = dialect().predefinedNames;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const VariableRange &row = names[i].row;
+    EXPECT_TRUE(i == 0 || names[i - 1].row.name < row.name) << row.name;
+    EXPECT_EQ(predefinedNamed(dialect(), row.name), row.first);
+    EXPECT_EQ(findVariable(dialect(), row.first), &row);
+    EXPECT_EQ(row.access, VariableAccess::ReadOnly);
+    EXPECT_FALSE(row.meaning.empty()) << row.name;
+    const bool isOfCode = names[i].source == NameSource::CodeInForce || names[i].source == NameSource::CodeTenths ||
+                          names[i].source == NameSource::CodeWhole;
+    EXPECT_TRUE(!isOfCode || findGCode(dialect(), static_cast<std::uint16_t>(names[i].detail))) << row.name;
+    const bool isOfVariable = names[i].source == NameSource::Variable;
+    EXPECT_TRUE(!isOfVariable || findVariable(dialect(), cellOf(dialect(), row.first))) << row.name;
+  }
+}
+
 TEST_P(EveryDialect, KnowsTheCodesThatTheModelAsksFor) {
   std::set<CodeRole> roles;
   for (const Code &code : dialect().gCodes)
