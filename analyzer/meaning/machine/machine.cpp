@@ -29,7 +29,8 @@ public:
     putInForce(options.variables.start, state_);
     frames_.push_back({.callee = entry, .call = at_});
     for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
-      if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))
+      if (const auto variable = programs.usesName(name) ? programs.variableNamed(name) : std::nullopt;
+          variable && !state_.variables.find(*variable))
         state_.variables.set(*variable, ConcreteValue::of(0));
     entry_ = state_;
     interpretation_.takeCodesToReturn(options_.missing == MissingPrograms::Return);
