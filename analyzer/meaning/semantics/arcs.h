@@ -89,7 +89,8 @@ private:
   Truth without(const Circle &circle) {
     return interpretation_.negation(context_.either(circle.byRadius, circle.byCentre));
   }
-  /// R counts before them; without any there is no radius that could differ, whether the block stops or moves in a line.
+  /// R counts before them; without any there is no radius that could differ, whether the block stops or moves in a
+  /// line.
   Truth hasDistances(const Circle &circle) {
     return interpretation_.both(interpretation_.negation(circle.byRadius),
                                 context_.either(circle.byCentre, circle.beside));

@@ -154,8 +154,8 @@ TEST_F(DischargeTest, FormulasAreParted) {
 TEST_F(DischargeTest, PartsAreSearchedAlone) {
   const TermId squares = store.add(store.multiply(x, x), store.multiply(y, y));
   const TermId root = store.apply(Function::Sqrt, number(2));
-  expectCertified({{store.lessOrEqual(squares, number(4)), store.less(z, store.multiply(z, z))},
-                   store.lessOrEqual(x, number(2))});
+  expectCertified(
+      {{store.lessOrEqual(squares, number(4)), store.less(z, store.multiply(z, z))}, store.lessOrEqual(x, number(2))});
   expectCertified({{store.less(z, store.multiply(z, z))}, store.less(root, store.number(Number::fromDouble(1.5)))});
 }
 
