@@ -78,10 +78,13 @@ bool leavesModalCalls(const SourceFile &source, const SyntaxTree &tree, const Di
   if (!std::ranges::all_of(whole, isSeen))
     return false;
   const std::string_view text = whole;
-  const bool callsByTool = std::ranges::any_of(
-      dialect.switches.codeCalls, [](const CodeCall &call) { return call.address != 'G' && call.address != 'M'; });
+  const auto callsByCode = [&](char address) { // by T, S or B, whatever its number
+    return address != 'G' && address != 'M' &&
+           std::ranges::any_of(dialect.switches.codeCalls,
+                               [&](const CodeCall &call) { return call.address == address; });
+  };
   for (std::size_t at = 0; at < text.size(); ++at) {
-    if (callsByTool && text[at] == 'T')
+    if (callsByCode(text[at]))
       return false;
     if (text[at] != 'G' && text[at] != 'M')
       continue;

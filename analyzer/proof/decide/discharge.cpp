@@ -115,9 +115,9 @@ private:
       std::optional<Outcome> outcome = byCertificate(budget_.search);
       return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
     }
-    // Much of what a short search does not prove is not so: a model that Z3 finds soon is cheaper than a long search.
     if (std::optional<Outcome> outcome = byPart(budget_.search / 10))
       return std::move(*outcome);
+    // Much of what a short search does not prove is not so: a model that Z3 finds soon is cheaper than a long search.
     if (std::optional<Outcome> outcome = byCertificate(budget_.search / 10))
       return std::move(*outcome);
     text_ = smt::writeSmtLib(store_, pure_);

@@ -92,8 +92,8 @@ private:
   std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
 
   /// Records where the step may stop; false if it always stops.
-  bool isSeenToHold(const Path &path, const PossibleStop &stop, smt::TermId goesOn);
   bool takeStops(Path &path);
+  bool isSeenToHold(const Path &path, const PossibleStop &stop, smt::TermId goesOn);
   /// Takes down where a result was taken as exact that may be too large for that.
   void checkExactResults(const Path &path);
   // ---- movements (explorer_moves.cpp) ----
