@@ -135,6 +135,9 @@ Behaviour behaviour() {
   behaviour.bareReferenceReturn = true;
   behaviour.dataIsAbsolute = true;
   behaviour.positionByData = true;
+  behaviour.writtenOriginWaits = true;
+  static constexpr std::array kStart = {CodeAction::CycleOff, CodeAction::ReturnToR};
+  behaviour.startsIn = kStart;
   behaviour.endRestoresModes = true;
   behaviour.machineMoveByMode = true;
   behaviour.machineIncrement = MachineIncrement::Alarm;

@@ -96,6 +96,9 @@ private:
   bool mayBe(const EntryValue &param, const Rational &value) const {
     if (param.unit == Unit::Integer && !value.isInteger())
       return false;
+    if (const auto step = param.step ? Rational::fromDecimal(*param.step) : std::nullopt)
+      if (const auto steps = divide(value, *step); steps && !steps->isInteger())
+        return false;
     if (const auto *range = std::get_if<Range>(&param.values)) {
       const auto low = range->low ? constantValue(contracts_.tree, *range->low, valueOf_) : std::nullopt;
       const auto high = range->high ? constantValue(contracts_.tree, *range->high, valueOf_) : std::nullopt;

@@ -58,7 +58,7 @@ private:
                                             context_.quoted(code.span()), context_.dialect.id),
                      .span = code.span(),
                      .labels = {{other.span(), "the second block"}},
-                     .notes = {"two blocks are the form of FANUC controls; this one stops at the first of them, or "
+                     .notes = {"two blocks are the form of other controls; this one stops at the first of them, or "
                                "cuts the second with a depth of cut of its own",
                                "write one block with all words, or name the control if it is another one"}});
   }

@@ -6,11 +6,11 @@ import math
 import random
 
 PLANES = {"g17": ("x", "y", "z", "i", "j"), "g18": ("z", "x", "y", "k", "i"), "g19": ("y", "z", "x", "j", "k")}
-# What the machine follows.  Not `_value` and `_value_returned`, which a definition that is passed sets (parity.md), nor
-# `_coord_system`: of 540 degrees the sine is 0 here, and just below 0 in the interpreter, which `mod` tells apart.
+# What the machine follows.  Not `_coord_system`: of 540 degrees the sine is 0 here, and just below 0 in the
+# interpreter, which `mod` tells apart.
 PREDEFINED = ["_x", "_y", "_z", "_X", "_a", "_abs_x", "_abs_z", "_metric", "_imperial", "_absolute", "_incremental", "_plane",
               "_ccomp", "_units_per_minute", "_inverse_time", "_spindle_rpm_mode", "_ijk_absolute_mode",
-              "_lathe_radius_mode", "_task"]
+              "_lathe_radius_mode", "_task", "_value", "_value_returned"]
 DEEPEST_BLOCK = 3
 DEEPEST_EXPRESSION = 3
 LONGEST_LINE = 250  # the interpreter refuses 256

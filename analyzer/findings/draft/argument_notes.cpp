@@ -17,8 +17,8 @@ constexpr std::size_t kMostWords = 4;
 constexpr std::size_t kMostValuesTold = 6;
 constexpr std::array<std::string_view, 14> kFillers = {"THE", "OF", "A",  "AN",  "IS", "TO",   "FOR",
                                                        "IN",  "AS", "AT", "AND", "OR", "THIS", "FROM"};
-constexpr std::array<std::string_view, 10> kReserved = {"IN",  "OPTIONAL", "MM",  "INCH", "DEG",
-                                                        "REV", "SEC",      "INT", "RPM",  "IPM"};
+constexpr std::array<std::string_view, 11> kReserved = {"IN",  "BY",  "OPTIONAL", "MM",  "INCH", "DEG",
+                                                        "REV", "SEC", "INT",      "RPM", "IPM"};
 /// What follows says more of what has been named: `LENGTH BETWEEN THE TOP AND THE FIRST ROW`.
 constexpr std::array<std::string_view, 15> kPrepositions = {"OF",   "FROM",  "BETWEEN", "BEFORE", "BEHIND",
                                                             "FOR",  "IN",    "AT",      "TO",     "ON",

@@ -72,6 +72,7 @@ struct EntryValue {
   Unit unit = Unit::None;
   Span unitSpan = {};
   Vacancy vacancy = Vacancy::Never;
+  std::optional<Decimal> step = {}; // of `BY 0.001`: it is a multiple of that, of at most 8 digits
 };
 
 /// `@REQUIRE`; the conditions of `@ENSURE` and `@INVARIANT`.

@@ -115,8 +115,9 @@ private:
   void entry(const Contract &contract) {
     for (const auto &[kind, list] : {std::pair("param", &contract.params), std::pair("global", &contract.globals)})
       for (const EntryValue &each : *list)
-        line(fmt::format("{} #{}{}{}: {}{}{}{}", kind, each.variable, each.name.empty() ? "" : " ", each.name,
+        line(fmt::format("{} #{}{}{}: {}{}{}{}{}", kind, each.variable, each.name.empty() ? "" : " ", each.name,
                          writer(each.clause).text(each.values), each.unit == Unit::None ? "" : " ", nameOf(each.unit),
+                         each.step ? " by " + each.step->toString() : "",
                          each.vacancy == Vacancy::Possible ? ", or vacant" : ""));
     for (const ContractCondition &each : contract.requirements)
       line("require " + writer(each.clause).text(each.condition));

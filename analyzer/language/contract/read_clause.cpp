@@ -98,10 +98,12 @@ private:
     EntryValue value{id_, variable.number, variable.span, {}, AnyNumber{}};
     if (!reader_.failed())
       refuseWrongKind(value, isParam);
-    if (const auto name = reader_.peekName(); name && !reader_.at("IN") && !reader_.at("OPTIONAL"))
+    if (const auto name = reader_.peekName(); name && !reader_.at("IN") && !reader_.at("BY") && !reader_.at("OPTIONAL"))
       value.name = reading_.result.source(source()).utf8(reader_.name("a name"));
     value.values = readValues(value.name);
     readUnit(value);
+    if (reader_.take("BY"))
+      readStep(value);
     if (reader_.take("OPTIONAL"))
       value.vacancy = Vacancy::Possible;
     if (isRead())
@@ -146,7 +148,7 @@ private:
 
   void readUnit(EntryValue &value) {
     const std::optional<Span> word = reader_.peekName();
-    if (!word || reader_.at("OPTIONAL") || reader_.failed())
+    if (!word || reader_.at("BY") || reader_.at("OPTIONAL") || reader_.failed())
       return;
     const std::string name = toUpper(reader_.text(*word));
     const auto found = std::ranges::find(kUnitNames, name);
@@ -160,6 +162,16 @@ private:
     }
     value.unit = static_cast<Unit>(found - std::begin(kUnitNames));
     value.unitSpan = reader_.name("a unit");
+  }
+
+  void readStep(EntryValue &value) {
+    const Span span = reader_.ahead();
+    constexpr std::string_view kExpected = "a step from 0.0001 to 1, such as `0.001`";
+    const ExpressionId number = reader_.value(kExpected);
+    const auto step = reader_.failed() ? std::nullopt : literalValue(reading_.result.tree, number);
+    if (!step || *step < Decimal(1, 4) || *step > Decimal::fromInteger(1))
+      reader_.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
+    value.step = step;
   }
 
   void require() {

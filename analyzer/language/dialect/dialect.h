@@ -62,6 +62,7 @@ enum class VariableRole : std::uint8_t {
   WorkOffset,           // in steps of 20 from #5201: external, G54 .. G59
   AdditionalWorkOffset, // of G54.1, G154
   SetOffset,            // of G92
+  WorkRotation,         // of a coordinate system, in degrees: in force when it is selected next
   Reference,            // machine coordinates to which G28 returns
   SecondReference,
   Pi,
@@ -349,33 +350,35 @@ struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
   IntegerPart integerPart = IntegerPart::TowardZero;
   LogicMeaning logic = LogicMeaning::Bitwise;
-  bool variablesMayBeVacant = true;    // else one that was never written reads as 0
-  bool roundsWords = true;             // a word computed from variables is rounded to the least increment
-  bool assignsAfterReading = false;    // all assignments of a line take place after the whole line is read
-  bool arcDistanceModes = false;       // G90.1 and G91.1 exist
-  bool cycleClearsFirst = false;       // a cycle that starts below its R level goes up to it before it goes to X, Y
-  bool cycleKeepsDepth = false;        // under G91 a new R level takes the bottom of the hole along
-  bool boringReturnsAtFeed = false;    // G89 feeds out up to the level to which it returns, not to the R level
-  bool oneSetOffset = false;           // G52 and G92 set one and the same offset
-  bool bareReferenceReturn = false;    // G28 without axis words moves all axes
-  bool dataIsAbsolute = false;         // G10 L2 sets the offset under G91 too
-  bool positionByData = false;         // G10 L20: the axes stand at the given coordinates
-  bool returnTargetIsLocal = false;    // `M99 P` jumps within its own program, also in a subprogram
-  bool endRestoresModes = false;       // M02 and M30 bring G01, G17, G40, G54, G90 and G94 into force
-  bool stopsAtStrayWords = false;      // words that the codes of a block do not take, or lack, are errors (LinuxCNC)
-  bool oneBlockCycles = false;         // G71 and its kin take one block; else one more before it has the depth of cut
-  bool repeatsByK = true;              // K of a canned cycle repeats it; L does so everywhere
-  bool machineMoveByMode = false;      // G53 feeds where G01 is in force; else it is always rapid
-  bool cyclesNeedXY = false;           // a canned cycle is executed in blocks with X or Y only, and in G17
-  bool scalingIsFollowed = true;       // G51; else nothing is known of positions behind it
-  bool cyclesAreScaled = true;         // G51 scales the levels of canned cycles
-  bool feedByIncrements = false;       // F without a point counts thousandths, as a setting says
-  bool distanceModeByWord = false;     // G90 and G91 in one block hold for the words behind them
-  bool localShiftIsVariable = false;   // #5201 and on are the offsets of G52
-  bool toolChangeReturnsZ = false;     // M06 moves Z to the reference position
-  bool toolChangeStopsCoolant = false; // M06 with the spindle running switches the coolant off
-  bool referenceCancelsLength = false; // G28 of any axis may cancel the tool length, not of Z alone
-  bool logicOfIntegerParts = false;    // AND, OR, XOR drop fractions; else they round
+  bool variablesMayBeVacant = true;     // else one that was never written reads as 0
+  bool roundsWords = true;              // a word computed from variables is rounded to the least increment
+  bool assignsAfterReading = false;     // all assignments of a line take place after the whole line is read
+  bool arcDistanceModes = false;        // G90.1 and G91.1 exist
+  bool cycleClearsFirst = false;        // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool cycleKeepsDepth = false;         // under G91 a new R level takes the bottom of the hole along
+  bool boringReturnsAtFeed = false;     // G89 feeds out up to the level to which it returns, not to the R level
+  bool oneSetOffset = false;            // G52 and G92 set one and the same offset
+  bool bareReferenceReturn = false;     // G28 without axis words moves all axes
+  bool dataIsAbsolute = false;          // G10 L2 sets the offset under G91 too
+  bool positionByData = false;          // G10 L20: the axes stand at the given coordinates
+  bool returnTargetIsLocal = false;     // `M99 P` jumps within its own program, also in a subprogram
+  bool endRestoresModes = false;        // M02 and M30 bring G01, G17, G40, G54, G90 and G94 into force
+  bool stopsAtStrayWords = false;       // words that the codes of a block do not take, or lack, are errors (LinuxCNC)
+  bool oneBlockCycles = false;          // G71 and its kin take one block; else one more before it has the depth of cut
+  bool repeatsByK = true;               // K of a canned cycle repeats it; L does so everywhere
+  bool machineMoveByMode = false;       // G53 feeds where G01 is in force; else it is always rapid
+  bool cyclesNeedXY = false;            // a canned cycle is executed in blocks with X or Y only, and in G17
+  bool scalingIsFollowed = true;        // G51; else nothing is known of positions behind it
+  bool cyclesAreScaled = true;          // G51 scales the levels of canned cycles
+  bool feedByIncrements = false;        // F without a point counts thousandths, as a setting says
+  bool distanceModeByWord = false;      // G90 and G91 in one block hold for the words behind them
+  bool localShiftIsVariable = false;    // #5201 and on are the offsets of G52
+  bool writtenOriginWaits = false;      // a written origin takes effect when its coordinate system is selected next
+  bool toolChangeReturnsZ = false;      // M06 moves Z to the reference position
+  bool toolChangeStopsCoolant = false;  // M06 with the spindle running switches the coolant off
+  bool referenceCancelsLength = false;  // G28 of any axis may cancel the tool length, not of Z alone
+  bool logicOfIntegerParts = false;     // AND, OR, XOR drop fractions; else they round
+  std::span<const CodeAction> startsIn; // in force at power-on, where other controls have other codes of these groups
   MachineIncrement machineIncrement = MachineIncrement::NotFollowed;
   bool absoluteBehindMappings = false; // also behind G68, not only behind G69, the first movement has to be absolute
   bool scalesByIncrements = false;     // factors of G51 count thousandths, or hundred-thousandths, as a parameter says

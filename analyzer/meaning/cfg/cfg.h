@@ -120,6 +120,12 @@ struct ReturnFromProgram {
   std::optional<ExpressionId> value; // of `o100 return [..]`
 };
 
+/// A return of a definition that the program passes: LinuxCNC evaluates its value all the same (read_o of its
+/// interp_read.cc).
+struct PassedReturn {
+  std::optional<ExpressionId> value;
+};
+
 enum class ProgramEnd : std::uint8_t { M02, M30, EndOfFile };
 struct EndProgram {
   ProgramEnd end;
@@ -141,9 +147,9 @@ struct HavocVariables {
   std::string_view reason;
 };
 
-using Instruction =
-    std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop, RequireLoop, StartCount,
-                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc, HavocVariables>;
+using Instruction = std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop,
+                                 RequireLoop, StartCount, CountDown, CallProgram, ReturnFromProgram, PassedReturn,
+                                 EndProgram, StopWithAlarm, Havoc, HavocVariables>;
 
 struct Node {
   BlockId block;

@@ -79,6 +79,7 @@ private:
           return "return" + (back.target ? " to " + text(tree_.words[*back.target].span()) : "") +
                  (back.value ? " " + text(*back.value) : "");
         },
+        [&](const PassedReturn &passed) { return "passed return" + (passed.value ? " " + text(*passed.value) : ""); },
         [&](const EndProgram &end) { return std::string(kEnds[static_cast<std::size_t>(end.end)]); },
         [&](const StopWithAlarm &stop) { return "alarm " + alarm(stop.alarm); },
         [](const Havoc &havoc) { return fmt::format("havoc {}", havoc.reason); },

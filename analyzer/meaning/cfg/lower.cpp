@@ -45,6 +45,7 @@ void Lowering::program(ProgramId id) {
   while (at < endOfText) {
     // A subroutine in the text is passed over: its blocks are those of its own program.
     if (inside.index() < model_.programs.size() && model_.programs[inside].first == at) {
+      passDefinition(model_.programs[inside]);
       at = model_.programs[inside].last;
       inside = firstFrom(at, inside);
       continue;
@@ -68,6 +69,12 @@ ProgramId Lowering::firstFrom(BlockId block, ProgramId program) const {
   while (program.index() < model_.programs.size() && model_.programs[program].first < block)
     program = program.next();
   return program;
+}
+
+void Lowering::passDefinition(const Program &definition) {
+  for (const OWordUse &use : model_.oWordsIn(definition.first, definition.last))
+    if (use.kind == OWordKind::Return || use.kind == OWordKind::EndSub)
+      emit(PassedReturn{valueOf(use.statement)});
 }
 
 void Lowering::addGates(const std::vector<LoopEntrance> &entrances) {

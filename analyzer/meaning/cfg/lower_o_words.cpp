@@ -17,8 +17,7 @@ constexpr std::string_view kRepeated = "an o-word whose label may have been used
 void Lowering::oWordStatement(StatementId id, const OWord &oWord) {
   const std::span<const OWordUse> here = model_.oWordsIn(block_, block_.next());
   const auto found = std::find_if(here.begin(), here.end(), [&](const OWordUse &each) { return each.statement == id; });
-  const std::span<const ExpressionId> arguments = tree_.argumentsOf(oWord);
-  const std::optional<ExpressionId> value = arguments.empty() ? std::nullopt : std::optional(arguments.front());
+  const std::optional<ExpressionId> value = valueOf(id);
   const std::optional<ConstructId> construct = found == here.end() ? std::nullopt : found->construct;
   switch (oWord.kind) {
   case OWordKind::Call: return; // a node of its own, with the other calls of the block
@@ -44,6 +43,12 @@ void Lowering::oWordStatement(StatementId id, const OWord &oWord) {
   } else {
     emit(Havoc{kUnpaired});
   }
+}
+
+/// The condition, the count, or the value that is returned.
+std::optional<ExpressionId> Lowering::valueOf(StatementId oWord) const {
+  const std::span<const ExpressionId> arguments = tree_.argumentsOf(std::get<OWord>(tree_.statements[oWord].node));
+  return arguments.empty() ? std::nullopt : std::optional(arguments.front());
 }
 
 /// The interpreter keeps the counter by the label: the next call goes on with what is left of it.

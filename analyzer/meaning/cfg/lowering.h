@@ -26,6 +26,7 @@ private:
   // lower.cpp
   void program(ProgramId id);
   ProgramId firstFrom(BlockId block, ProgramId program) const;
+  void passDefinition(const Program &definition);
   void addGates(const std::vector<LoopEntrance> &entrances);
   void mendJumps(ProgramId id, NodeId end);
 
@@ -84,6 +85,7 @@ private:
   // lower_o_words.cpp
   struct ConstructNodes;
   void oWordStatement(StatementId id, const OWord &oWord);
+  std::optional<ExpressionId> valueOf(StatementId oWord) const;
   void headOfConstruct(ConstructId id);
   bool isLeftByReturn(const Construct &construct) const;
   void partOfConstruct(OWordKind kind, ConstructId id, std::optional<ExpressionId> value);

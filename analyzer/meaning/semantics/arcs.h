@@ -183,15 +183,18 @@ private:
     return interpretation_.isOneOf(state_.codes[*group], others);
   }
   /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
-  /// parameter of most, and one that is accepted makes half a circle.
+  /// parameter of most, and one that is accepted makes half a circle.  Controls count increments: what doubles add to
+  /// the ends of half a circle is no difference.
   Alarms alarmsOfRadius(const Circle &circle, const Point &start) {
     const Truth none = interpretation_.truth(false);
     Alarms alarms{none, none, none, none};
     const auto *entry = words_.find('R');
     if (!entry || !interpretation_.mayBe(circle.byRadius))
       return alarms;
-    const Value radius =
+    constexpr double kNoDifference = 1e-10;
+    const Value word =
         interpretation_.function(FunctionKind::Abs, interpretation_.multiply(entry->value, circle.mapping.scale));
+    const Value radius = interpretation_.add(word, interpretation_.number(kNoDifference));
     const auto [a, b] = chordOf(circle.plane, start);
     const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
     const Value halfSquare = interpretation_.divide(chordSquare, interpretation_.number(4));

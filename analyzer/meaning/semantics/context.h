@@ -19,6 +19,7 @@ template <ValueAlgebra R> struct StepContext {
   const ProgramFile &file;
   const ModalTable &modes;
   BlockId block;
+  bool passesDefinition = false; // names that are unset do not stop the control here, and give any number
 
   using Value = typename R::Value;
   using Truth = typename R::Truth;

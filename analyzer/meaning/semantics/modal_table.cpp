@@ -103,6 +103,8 @@ void ModalTable::findPowerOn(const Dialect &dialect) {
   if (dialect.machine == MachineKind::Turning)
     for (const CodeAction action : kPowerOnTurning)
       take(action, true);
+  for (const CodeAction action : dialect.behaviour.startsIn)
+    take(action, true);
   for (std::size_t group = 0; group < kModalGroups; ++group) // `G67`, `G13.1`: the mode that the others leave
     for (std::size_t i = 0; i < groups_[group].codes.size() && !powerOn_[group]; ++i)
       if (const Code &code = *groups_[group].codes[i];

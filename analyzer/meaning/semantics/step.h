@@ -52,7 +52,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
     if (const auto number = variableAt(context, index, expression.span))
       return writeVariable(context, *number, std::move(value), expression.span);
     if (interpretation.writeAnyOf(context.state, interpretation.asNumber(index), value, expression.span))
-      havocOrigins(context);
+      loseOrigins(context, expression.span);
     forgetLength(context);
     return;
   } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
@@ -116,6 +116,13 @@ template <ValueAlgebra R>
 void setNamed(StepContext<R> &context, std::string_view name, const typename R::Value &value) {
   if (const auto number = context.programs.usesName(name) ? context.programs.variableNamed(name) : std::nullopt)
     context.state.variables.set(*number, value);
+}
+
+template <ValueAlgebra R> void keepReturned(StepContext<R> &context, std::optional<ExpressionId> expression) {
+  R &interpretation = context.interpretation;
+  const auto value = expression ? interpretation.asNumber(evaluate(context, *expression)) : context.zero();
+  setNamed(context, "_value", value);
+  setNamed(context, "_value_returned", interpretation.number(expression ? 1 : 0));
 }
 
 template <ValueAlgebra R>
@@ -195,7 +202,11 @@ template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &
     detail::startCount(context, *start);
   else if (const auto *stop = std::get_if<StopWithAlarm>(&instruction))
     interpretation.alarm(interpretation.truth(true), {stop->alarm, context.place()});
-  else if (const auto *havoc = std::get_if<Havoc>(&instruction))
+  else if (const auto *passed = std::get_if<PassedReturn>(&instruction)) {
+    context.passesDefinition = true;
+    detail::keepReturned(context, passed->value);
+    context.passesDefinition = false;
+  } else if (const auto *havoc = std::get_if<Havoc>(&instruction))
     interpretation.havoc(context.state, havoc->reason, context.place());
   else if (const auto *unread = std::get_if<HavocVariables>(&instruction))
     detail::havocVariables(context, *unread);
@@ -239,11 +250,8 @@ template <ValueAlgebra R>
 std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from) {
   R &interpretation = context.interpretation;
   restoreModesAtReturn(context);
-  if (context.dialect().grammar.namedParameters && !from.target) {
-    const auto value = from.value ? interpretation.asNumber(evaluate(context, *from.value)) : context.zero();
-    detail::setNamed(context, "_value", value);
-    detail::setNamed(context, "_value_returned", interpretation.number(from.value ? 1 : 0));
-  }
+  if (context.dialect().grammar.namedParameters && !from.target)
+    detail::keepReturned(context, from.value);
   if (!from.target)
     return std::nullopt;
   const Word &word = context.tree().words[*from.target];

@@ -132,6 +132,7 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::WorkOffset:
   case VariableRole::AdditionalWorkOffset:
   case VariableRole::SetOffset:
+  case VariableRole::WorkRotation:
   case VariableRole::Reference:
   case VariableRole::SecondReference:
   case VariableRole::SkipPosition: return storedValue(context, number);
@@ -214,6 +215,36 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
     shiftCoordinate(context, kAllAxes[axis], interpretation.anyNumber());
 }
 
+/// Until its system is selected next, an origin in force is another than its variable shows.
+template <ValueAlgebra R>
+void writeWaitingOrigin(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
+  const std::uint32_t system = (number - kFirstWorkOffset) / kWorkOffsetStride - 1;
+  context.state.variables.set(number, std::move(value));
+  if (workOffsetInForce(context).value_or(system) != system)
+    return;
+  havocOrigins(context);
+  context.interpretation.unmodelled("an origin that is written while its coordinate system may be in force", place);
+}
+
+/// Whether the system is selected before anything moves is not asked.
+template <ValueAlgebra R>
+void writeRotation(StepContext<R> &context, const typename R::Value &angle, typename R::Truth when, Span place) {
+  R &interpretation = context.interpretation;
+  const auto isTurned = interpretation.negation(interpretation.compare(Relation::Equal, angle, context.zero()));
+  const auto turns = interpretation.both(when, isTurned);
+  if (!interpretation.mayBe(turns))
+    return;
+  enterOtherGeometry(context, kLastingGeometry, turns);
+  interpretation.unmodelled("a rotation that is written for a coordinate system", place);
+}
+
+/// Some variable of the control may have been written.
+template <ValueAlgebra R> void loseOrigins(StepContext<R> &context, Span place) {
+  havocOrigins(context);
+  if (rangeWithRole(context.dialect(), VariableRole::WorkRotation))
+    writeRotation(context, context.interpretation.anyNumber(), context.interpretation.unknownTruth(), place);
+}
+
 /// The offsets in force are not told by a code that is followed: one of these may be among them.
 template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, Span place) {
   if (workOffsetInForce(context))
@@ -229,7 +260,10 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
   if (range.kind == VariableKind::System) // cells of the control hold numbers
     value = interpretation.asNumber(value);
   if (range.role == VariableRole::WorkOffset)
-    return writeWorkOffset(context, cell, value);
+    return context.behaviour().writtenOriginWaits ? writeWaitingOrigin(context, cell, std::move(value), place)
+                                                  : writeWorkOffset(context, cell, value);
+  if (range.role == VariableRole::WorkRotation)
+    writeRotation(context, value, interpretation.truth(true), place);
   if (isLocalShift(context, cell)) { // G52 by another way, which is not followed
     havocOrigins(context);
     interpretation.unmodelled("the offset of G52 written through its variable", place);
@@ -264,11 +298,18 @@ template <ValueAlgebra R> void writeBits(StepContext<R> &context, const BitWord 
 } // namespace detail
 
 template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context, std::uint32_t number, Span place) {
-  const auto value = detail::readAsStored(context, number, place);
+  auto value = detail::readAsStored(context, number, place);
+  if constexpr (requires { context.interpretation.asHeld(value); }) // a position is counted in increments
+    value = context.interpretation.asHeld(value);
   if (context.behaviour().variablesMayBeVacant)
     return value;
-  if (number >= kFirstNamedVariable)
-    context.interpretation.alarm(context.interpretation.isVacant(value), {AlarmKind::VariableNotAvailable, place});
+  if (number < kFirstNamedVariable)
+    return context.interpretation.asNumber(value);
+  const auto isUnset = context.interpretation.isVacant(value);
+  if (context.passesDefinition)
+    return context.interpretation.select(isUnset, context.interpretation.anyNumber(),
+                                         context.interpretation.asNumber(value));
+  context.interpretation.alarm(isUnset, {AlarmKind::VariableNotAvailable, place});
   return context.interpretation.asNumber(value);
 }
 

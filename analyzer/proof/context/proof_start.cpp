@@ -179,32 +179,35 @@ OffsetOfCutter ProofStart::cutterOffsets(const Contract &contract) {
       return rangeOf(*found, number.number);
     if (!contract.offsets.empty())
       return std::nullopt;
-    return PathOffset{.radius = termOf(contract.tool->radius), .isAssumed = true};
+    return PathOffset{.radius = registerOf(contract.tool->radius), .isAssumed = true};
   };
+}
+
+/// A register holds increments.
+TermId ProofStart::registerOf(ExpressionId radius) {
+  return interpretation_.asCounted(terms_->number(radius, entry_, entry_));
 }
 
 /// Of a lathe: that of the tool, whichever offset it is; `@OFFSET` tells offsets of D.
 std::optional<PathOffset> ProofStart::noseOf(const Contract &contract) {
   if (!contract.tool || !contract.offsets.empty())
     return std::nullopt;
-  return PathOffset{.radius = terms_->number(contract.tool->radius, entry_, entry_),
-                    .tip = tipDirection(contract.tool->direction)};
+  return PathOffset{.radius = registerOf(contract.tool->radius), .tip = tipDirection(contract.tool->direction)};
 }
 
 /// A range holds one radius for each D, in the whole run.
 PathOffset ProofStart::rangeOf(const RadiusOffset &offset, TermId number) {
   const auto &[low, high] = offset.radius;
-  const auto termOf = [&](ExpressionId expression) { return terms_->number(expression, entry_, entry_); };
   if (low == high)
-    return {.radius = termOf(*low)};
+    return {.radius = registerOf(*low)};
   auto [known, isNew] = radii_.try_emplace({offset.clause.index(), number}, number);
   if (isNew)
     known->second = interpretation_.fresh("offset", smt::Sort::Real);
   PathOffset result{.radius = known->second};
   if (low)
-    result.conditions.push_back(store_.lessOrEqual(termOf(*low), result.radius));
+    result.conditions.push_back(store_.lessOrEqual(registerOf(*low), result.radius));
   if (high)
-    result.conditions.push_back(store_.lessOrEqual(result.radius, termOf(*high)));
+    result.conditions.push_back(store_.lessOrEqual(result.radius, registerOf(*high)));
   return result;
 }
 

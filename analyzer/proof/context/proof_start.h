@@ -81,6 +81,7 @@ private:
   OffsetOfCutter cutterOffsets(const Contract &contract);
   std::optional<PathOffset> noseOf(const Contract &contract);
   PathOffset rangeOf(const RadiusOffset &offset, smt::TermId number);
+  smt::TermId registerOf(ExpressionId radius);
 
   smt::TermStore store_;
   SymbolicInterpretation interpretation_;

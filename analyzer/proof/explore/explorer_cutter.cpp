@@ -98,7 +98,7 @@ std::optional<PathOffset> Explorer::writtenOffset(Path &path, const SymbolicValu
     return PathOffset{.radius = number.number,
                       .why =
                           "cutter compensation by an offset that the program writes, of which it is not known whether "
-                          "it is a radius or a diameter (parameter 5004#2, Setting 40 of Haas: the switch `odi`)"};
+                          "it is a radius or a diameter (the switch `odi`)"};
   auto context = contextOf(path);
   TermId radius = store_.number(smt::Number(0));
   for (const std::uint32_t first : {memory.geometry[0], memory.wear[0]}) {

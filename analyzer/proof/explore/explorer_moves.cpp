@@ -85,7 +85,7 @@ std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Mo
   const auto *entry = isArc && path.state.transformed.term == store_.no() ? words_.find('R') : nullptr;
   if (!entry || !path.says(store_, entry->present.term))
     return std::nullopt;
-  const TermId radius = entry->value.number;
+  const TermId radius = interpretation_.asCounted(entry->value.number); // a length, like the coordinates
   const TermId zero = store_.number(smt::Number(0));
   if (entails_(interpretation_.facts(), path.conditions, store_.less(zero, radius)))
     return geometry::ArcRadius{radius, geometry::ArcLength::Short};

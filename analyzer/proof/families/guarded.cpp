@@ -55,16 +55,17 @@ Question guardedQuestion(const ExploredProgram &outside) {
   return question;
 }
 
-/// While it lives, inputs are not known to be whole numbers: that is a clause of the contract, too.
+/// While it lives, inputs are not known to be whole numbers or multiples: that is a clause of the contract, too.
 class BesideContract {
 public:
-  explicit BesideContract(Grids &grids) : grids_(grids), before_(grids.believeInputs(false)) {}
+  explicit BesideContract(SymbolicInterpretation &interpretation)
+      : interpretation_(interpretation), before_(interpretation.believeInputs(false)) {}
   BesideContract(const BesideContract &) = delete;
   BesideContract &operator=(const BesideContract &) = delete;
-  ~BesideContract() { grids_.believeInputs(before_); }
+  ~BesideContract() { interpretation_.believeInputs(before_); }
 
 private:
-  Grids &grids_;
+  SymbolicInterpretation &interpretation_;
   bool before_;
 };
 
@@ -100,7 +101,7 @@ std::optional<Obligation> guardedRow(const ProofContext &context) {
   if (!subject.contract() || !subject.contract()->guarded || !subject.wants(ObligationKind::Guarded))
     return std::nullopt;
   smt::TermStore &store = start.store();
-  const BesideContract anyNumbers(start.interpretation().grids());
+  const BesideContract anyNumbers(start.interpretation());
   ExploreOptions options;
   const Outside outsideStart = outsideOf(start, *subject.contract());
   options.assumptions = {store.logicalNot(store.logicalAnd(outsideStart.allowed))};

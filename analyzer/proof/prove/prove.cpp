@@ -378,15 +378,25 @@ bool isByRounding(const Obligation &exact) {
 
 constexpr std::string_view kRoundingMayBreak = "holds in exact arithmetic; rounding on the control may break it";
 
+/// An arc that is rounded is no longer tangent to the line beside it.
+std::string whyRounded(const Obligation &row, const Contract *contract) {
+  const bool mayTakeSteps = row.kind == ObligationKind::Compensation && contract &&
+                            std::ranges::any_of(contract->params, [](const EntryValue &param) {
+                              return !param.step && param.unit != Unit::Integer;
+                            });
+  return std::string(kRoundingMayBreak) +
+         (mayTakeSteps ? ". `BY .001` behind the ranges of arguments in the contour makes its words exact" : "");
+}
+
 /// Holds in exact arithmetic, or would with a guard that was found there.
-void takeFromExact(Obligation &row, const Obligation &exact) {
+void takeFromExact(Obligation &row, const Obligation &exact, const Contract *contract) {
   if (const Witness *found = row.verdict.witness(); found && isByRounding(exact)) {
     Witness witness = *found;
     witness.happened += kByRounding;
     row.verdict = std::move(witness);
   }
   if (isOpen(row) && exact.verdict.holds())
-    row.verdict = Verdict::unknown(std::string(kRoundingMayBreak));
+    row.verdict = Verdict::unknown(whyRounded(row, contract));
   if (const auto *guard = exact.verdict.guard(); guard && !row.verdict.holds()) {
     Guard known = *guard;
     known.exactOnly = true;
@@ -441,7 +451,7 @@ void compareWithExact(const ProofSubject &subject, std::vector<WholeProof> &part
     for (Obligation &row : rows)
       for (const Obligation &other : inExact.obligations)
         if (isSameClaim(row, other))
-          takeFromExact(row, other);
+          takeFromExact(row, other, subject.contract());
   }
   std::ranges::move(inExact.contradictions, std::back_inserter(parts.front().proof.contradictions));
 }
@@ -456,7 +466,7 @@ bool isAskedOfAllRuns(ObligationKind kind) {
 /// What rounding may break is proved of runs in which no loop makes so many passes that their count is rounded.
 void proveOfFewPasses(const ProofSubject &subject, ProgramProof &proof) {
   const auto isOpenByRounding = [](const Obligation &row) {
-    return isOpen(row) && row.verdict.reason() == kRoundingMayBreak && !isAskedOfAllRuns(row.kind);
+    return isOpen(row) && row.verdict.reason().starts_with(kRoundingMayBreak) && !isAskedOfAllRuns(row.kind);
   };
   Kinds kinds;
   for (const Obligation &row : proof.obligations)

@@ -112,11 +112,16 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
-    model[store[value.number].name] = vacant ? smt::Number(0) : inputNumber(interpretation_, held->number);
+    model[store[value.number].name] = vacant ? smt::Number(0) : numberOf(variable, held->number);
     if (store[value.vacant].kind == smt::TermKind::Variable)
       model[store[value.vacant].name] = vacant;
   }
   return model;
+}
+
+/// Of an input in steps: what was typed.
+smt::Number WitnessSearch::numberOf(std::uint32_t variable, double held) const {
+  return interpretation_.stepOf(variable) ? smt::Number::fromTyped(held) : inputNumber(interpretation_, held);
 }
 
 /// What can be typed for an input depends on its number alone, and the same numbers come again and again.
@@ -125,7 +130,9 @@ bool WitnessSearch::canBeTyped(std::uint32_t variable, const smt::Number &number
   if (isNew) {
     const smt::TermStore &store = interpretation_.store();
     const smt::Model model{{store[input].name, number}};
-    known->second = std::ranges::all_of(interpretation_.typedInput(variable, input),
+    const auto step = interpretation_.stepOf(variable);
+    known->second = (!step || (number / *step).isInteger()) &&
+                    std::ranges::all_of(interpretation_.typedInput(variable, input),
                                         [&](smt::TermId condition) { return smt::isTrue(store, condition, model); });
   }
   return known->second;
@@ -137,7 +144,7 @@ bool WitnessSearch::isAllowed(const GivenVariables &given) const {
   for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
-    if (!canBeTyped(variable, vacant ? smt::Number(0) : inputNumber(interpretation_, held->number), value.number))
+    if (!canBeTyped(variable, vacant ? smt::Number(0) : numberOf(variable, held->number), value.number))
       return false;
   }
   if (demands_.empty())

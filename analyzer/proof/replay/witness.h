@@ -154,6 +154,7 @@ private:
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.
   std::optional<std::string> broken(const Sample &run, const Violation &violation) const;
+  smt::Number numberOf(std::uint32_t variable, double held) const;
   bool canBeTyped(std::uint32_t variable, const smt::Number &number, smt::TermId input) const;
   bool isAllowed(const GivenVariables &given) const;
   void addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const;

@@ -38,6 +38,8 @@ auto inContract(SymbolicInterpretation &interpretation, const ProgramSet &progra
   return result;
 }
 
+smt::Number stepOf(const EntryValue &input) { return smt::Number::parse(input.step->toString()).value(); }
+
 } // namespace
 
 std::set<std::uint32_t> oldVariablesIn(const FileContracts &contracts) {
@@ -78,6 +80,8 @@ std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, c
       input.hasLow |= list != nullptr;
       input.hasHigh |= list != nullptr;
       input.isWhole |= list && std::ranges::all_of(list->values, isWhole);
+      if (each.step)
+        input.step = stepOf(each);
     }
   return inputs;
 }
@@ -163,10 +167,13 @@ TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &ent
   match(
       given.values, [](const AnyNumber &) {},
       [&](const Range &range) {
+        const auto isAtMost = [&](const SymbolicValue &low, const SymbolicValue &high) {
+          demands.push_back(interpretation_.compare(Relation::LessOrEqual, low, high).term);
+        };
         if (range.low)
-          demands.push_back(store.lessOrEqual(value(*range.low, entry).number, held.number));
+          isAtMost(value(*range.low, entry), held);
         if (range.high)
-          demands.push_back(store.lessOrEqual(held.number, value(*range.high, entry).number));
+          isAtMost(held, value(*range.high, entry));
       },
       [&](const ValueList &list) {
         std::vector<TermId> cases;
@@ -176,6 +183,8 @@ TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &ent
       });
   if (given.unit == Unit::Integer)
     demands.push_back(store.equal(store.floor(held.number), held.number));
+  if (given.step)
+    demands.push_back(interpretation_.isMultiple(held.number, stepOf(given)));
   const TermId within = store.logicalAnd(demands);
   if (given.vacancy == Vacancy::Possible)
     return store.logicalOr(held.vacant, within);
@@ -379,7 +388,7 @@ void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
   if (contract.start)
     for (const AxisValue &axis : contract.start->axes)
       if (const auto known = axisOf(axis.axis))
-        entry.at(*known) = interpretation_.asNumber(value(axis.value, entry));
+        entry.at(*known) = {interpretation_.store().no(), interpretation_.asCounted(value(axis.value, entry).number)};
 }
 
 } // namespace feedhold::prove

@@ -195,6 +195,7 @@ bool SymbolicInterpretation::isStored(VariableSpan span) const {
     case VariableRole::WorkPosition:
     case VariableRole::SkipPosition:
     case VariableRole::SetOffset:
+    case VariableRole::WorkRotation:
     case VariableRole::Reference:
     case VariableRole::SecondReference:
     case VariableRole::Pi:

@@ -44,7 +44,11 @@ void SymbolicInterpretation::hold(Value &value, const Expression &expression) {
   const auto *literal = std::get_if<NumberLiteral>(&expression.node);
   if (!literal || !hasShortMantissas() || !store_.isNumber(value.number) || isShort(store_[value.number].number))
     return;
-  value = near(value.number, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(value.number)));
+  value.number = inShortMantissa(value.number);
+}
+
+TermId SymbolicInterpretation::inShortMantissa(TermId number) {
+  return near(number, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(number))).number;
 }
 
 // ---- results as doubles ----
@@ -56,6 +60,8 @@ SymbolicValue SymbolicInterpretation::result(Operation operation, TermId exact, 
   for (const TermId operand : {a.number, b.number})
     if (exact == operand || exact == store_.negate(operand))
       return of(exact);
+  if (const auto sum = increments_.sumOfWords(exact))
+    return of(*sum);
   const auto grid = store_.isNumber(exact) || isRoundedHere() ? std::nullopt : grids_.of(exact);
   if (!grid)
     return hasShortMantissas() ? inShortMantissa(operation, exact, a, b) : of(store_.apply(Function::Nearest, exact));
@@ -176,11 +182,22 @@ SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal st
     const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
     return number(std::round(*constant * steps) / steps);
   }
+  if (const auto word = isRoundedHere() ? std::nullopt : increments_.wordOf(value.number, numberOf(step), exact_))
+    return of(*word);
   const TermId opposite = store_.negate(value.number);
   const bool isOpposite = opposite < value.number;
   const TermId exact = isOpposite ? opposite : value.number;
   const TermId word = near(exact, distanceOfWord(exact, numberOf(step) / Number(2))).number;
   return of(isOpposite ? store_.negate(word) : word);
+}
+
+TermId SymbolicInterpretation::isMultiple(TermId number, const Number &step) {
+  if (increments_.isTypedMultiple(number, step))
+    return store_.yes();
+  const TermId steps =
+      store_.floor(store_.add(store_.scale(Number(1) / step, number), store_.number(Number(1) / Number(2))));
+  const TermId multiple = store_.scale(step, steps);
+  return store_.equal(number, arithmetic_ == Arithmetic::Exact ? multiple : store_.apply(Function::Nearest, multiple));
 }
 
 TermId SymbolicInterpretation::distanceOfWord(TermId exact, const Number &half) {

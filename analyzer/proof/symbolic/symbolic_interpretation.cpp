@@ -83,8 +83,16 @@ SymbolicValue SymbolicInterpretation::named(const std::string &name, MayBeVacant
   const auto known = named_.find(name);
   if (known != named_.end())
     return known->second;
-  Value value{store_.no(), store_.variable(name, Sort::Real)};
+  const Value value = numberNamed(name, mayBeVacant);
   store_.markAsDouble(value.number);
+  return value;
+}
+
+SymbolicValue SymbolicInterpretation::numberNamed(const std::string &name, MayBeVacant mayBeVacant) {
+  const auto known = named_.find(name);
+  if (known != named_.end())
+    return known->second;
+  Value value{store_.no(), store_.variable(name, Sort::Real)};
   if (mayBeVacant == MayBeVacant::Yes) {
     value.vacant = store_.variable(name + " vacant", Sort::Bool);
     facts_.push_back(store_.implies(value.vacant, store_.equal(value.number, store_.number(Number(0)))));
@@ -105,18 +113,35 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
     if (!isNumber)
       return vacant();
   }
-  const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
+  const WrittenInput &written = written_[variable];
+  const auto vacancy = isNumber ? MayBeVacant::No : MayBeVacant::Yes;
+  const std::string name = fmt::format("#{}", variable);
+  const Value value = written.step ? numberNamed(name, vacancy) : named(name, vacancy);
   entryValues_.emplace(variable, value);
   if (assumesTyped_ && typed_.insert(variable).second) {
-    const WrittenInput &written = written_[variable];
     const std::vector<TermId> typed = typedInput(variable, written, value.number);
     facts_.insert(facts_.end(), typed.begin(), typed.end());
     if (written.isWhole && !typed.empty())
       grids_.setOfInput(value.number, 0);
+    if (written.step)
+      increments_.setStep(value.number, *written.step);
   }
   entry_.insert(value.number);
   entry_.insert(value.vacant);
-  return value;
+  return asHeld(value);
+}
+
+/// As a literal is held: the nearest double, or what a control with shorter mantissas makes of that.
+SymbolicValue SymbolicInterpretation::asHeld(const Value &value) {
+  if (arithmetic_ == Arithmetic::Exact || !increments_.isCounted(value.number))
+    return value;
+  const bool isShort = numbersOf(*dialect_) != NumberModel::Binary64;
+  return {value.vacant, isShort ? inShortMantissa(value.number) : store_.apply(Function::Nearest, value.number)};
+}
+
+TermId SymbolicInterpretation::asCounted(TermId number) {
+  const auto multiple = increments_.isUsed() ? increments_.of(number) : std::nullopt;
+  return multiple && increments_.isCounted(multiple->exact) ? multiple->exact : number;
 }
 
 /// Controls take 8 digits (docs/arithmetic.md).  Ends that the contract states replace the larger ones.
@@ -124,11 +149,12 @@ std::vector<TermId> SymbolicInterpretation::typedInput(std::uint32_t variable, c
                                                        TermId number) {
   if (arithmetic_ == Arithmetic::Exact || isSystemVariable(*dialect_, variable))
     return {};
+  number = increments_.typedInput(number);
   std::vector<TermId> typed;
-  const TermId most = store_.number(Number(99'999'999));
-  if (!written.hasLow)
+  const TermId most = store_.number(Number(kMostTypedSteps) * written.step.value_or(Number(1)));
+  if (!written.hasLow || written.step)
     typed.push_back(store_.lessOrEqual(store_.negate(most), number));
-  if (!written.hasHigh)
+  if (!written.hasHigh || written.step)
     typed.push_back(store_.lessOrEqual(number, most));
   const TermId zero = store_.number(Number(0)), least = store_.number(Number(1) / Number(100'000'000));
   typed.push_back(store_.logicalOr(store_.lessOrEqual(number, zero), store_.lessOrEqual(least, number)));
@@ -278,6 +304,8 @@ SymbolicValue SymbolicInterpretation::bitwise(OperatorKind op, const Value &a, c
 
 /// Whole numbers are counted, others are measured.
 Condition SymbolicInterpretation::equal(const Value &a, const Value &b) {
+  if (const auto typed = tolerance_ ? std::nullopt : increments_.typedPair(a.number, b.number))
+    return {store_.equal(typed->first, typed->second)};
   const auto isWhole = [&](const Value &value) { return grids_.of(value.number).value_or(-1) >= 0; };
   if (!tolerance_ || (isWhole(a) && isWhole(b)))
     return {store_.equal(a.number, b.number)};
@@ -286,13 +314,14 @@ Condition SymbolicInterpretation::equal(const Value &a, const Value &b) {
 }
 
 Condition SymbolicInterpretation::compare(Relation relation, const Value &a, const Value &b) {
+  const auto [left, right] = increments_.typedPair(a.number, b.number).value_or(std::pair(a.number, b.number));
   switch (relation) {
   case Relation::Equal: return equal(a, b);
   case Relation::NotEqual: return negation(equal(a, b));
-  case Relation::Greater: return {store_.greater(a.number, b.number)};
-  case Relation::GreaterOrEqual: return {store_.greaterOrEqual(a.number, b.number)};
-  case Relation::Less: return {store_.less(a.number, b.number)};
-  case Relation::LessOrEqual: return {store_.lessOrEqual(a.number, b.number)};
+  case Relation::Greater: return {store_.greater(left, right)};
+  case Relation::GreaterOrEqual: return {store_.greaterOrEqual(left, right)};
+  case Relation::Less: return {store_.less(left, right)};
+  case Relation::LessOrEqual: return {store_.lessOrEqual(left, right)};
   }
   return unknownTruth();
 }

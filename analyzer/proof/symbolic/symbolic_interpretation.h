@@ -12,6 +12,7 @@
 #include "meaning/semantics/step.h"
 #include "proof/smt/term.h"
 #include "proof/symbolic/grids.h"
+#include "proof/symbolic/increments.h"
 #include "proof/symbolic/region_memory.h"
 
 #include <functional>
@@ -48,13 +49,7 @@ struct WrittenInput {
   bool isWhole = false;
   bool hasLow = false; // a least number
   bool hasHigh = false;
-};
-
-/// A number that was taken to be at most 2^bits: a result that is exact there, since it is a multiple of a power of
-/// two; or a word.
-struct TakenAsSmall {
-  smt::TermId result;
-  int bits;
+  std::optional<smt::Number> step = {}; // it is a multiple of
 };
 
 class SymbolicInterpretation;
@@ -99,7 +94,7 @@ public:
   using State = SymbolicState;
 
   SymbolicInterpretation(smt::TermStore &store, const Dialect &dialect, Arithmetic arithmetic = Arithmetic::Exact)
-      : store_(store), dialect_(&dialect), arithmetic_(arithmetic), grids_(store) {}
+      : store_(store), dialect_(&dialect), arithmetic_(arithmetic), grids_(store), increments_(store) {}
 
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
@@ -123,6 +118,16 @@ public:
   std::vector<TakenAsSmall> takeExactResults() { return std::exchange(exact_, {}); }
   void restoreExactResults(std::vector<TakenAsSmall> results) { exact_ = std::move(results); }
   Grids &grids() { return grids_; }
+  Increments &increments() { return increments_; }
+  /// Whether what contracts say of the numbers of inputs is believed.  Returns what it was.
+  bool believeInputs(bool believes) {
+    increments_.believeInputs(believes);
+    return grids_.believeInputs(believes);
+  }
+  /// A number of the control, of what a counter of increments holds.
+  Value asHeld(const Value &value);
+  /// What a counter of increments holds of such a number: its multiple of a step, where it is known to be one.
+  smt::TermId asCounted(smt::TermId number);
   /// What no text and no manual says comes out as in a run of the machine, in place of both ways; `settings`: those
   /// that are otherwise.
   void takeUsual(std::vector<std::pair<SwitchId, bool>> settings) {
@@ -148,10 +153,17 @@ public:
   /// What a proof assumes of the number that a variable of the programs holds at the start: that it can be typed.
   /// Whoever calls the program has to show it.  In exact arithmetic nothing is assumed.
   std::vector<smt::TermId> typedInput(std::uint32_t variable, const WrittenInput &written, smt::TermId number);
+  /// What the contract has said of the variable: a multiple of it.
+  std::optional<smt::Number> stepOf(std::uint32_t variable) const {
+    const auto written = written_.find(variable);
+    return written == written_.end() ? std::nullopt : written->second.step;
+  }
   /// With what has been said of the inputs of the program itself.
   std::vector<smt::TermId> typedInput(std::uint32_t variable, smt::TermId number) {
     return typedInput(variable, written_[variable], number);
   }
+  /// The number is that of the control that is nearest to a multiple of the step.
+  smt::TermId isMultiple(smt::TermId number, const smt::Number &step);
   /// Where an index is thought to be.
   void suggestIndices(IndexRanges ranges) { indexRanges_ = std::move(ranges); }
   std::set<IndexPlace> suggestedIndices() const;
@@ -192,6 +204,8 @@ public:
   /// A value with variables of its own, named after `name`: a number where `vacant` is false.
   enum class MayBeVacant : std::uint8_t { No, Yes };
   Value named(const std::string &name, MayBeVacant mayBeVacant);
+  /// The same, of a number that no control need hold.
+  Value numberNamed(const std::string &name, MayBeVacant mayBeVacant);
   /// The value that a variable has at the start of the run.
   Value atEntry(std::uint32_t variable);
   /// The variable of the solver stands for what was there at the start of the run.
@@ -291,6 +305,7 @@ private:
   smt::TermId sizeOf(smt::TermId number);
   Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);
   Value near(smt::TermId exact, smt::TermId distance);
+  smt::TermId inShortMantissa(smt::TermId number);
   Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
   Value roundedWord(const Value &value, Decimal step);
   smt::TermId distanceOfWord(smt::TermId exact, const smt::Number &half);
@@ -331,6 +346,7 @@ private:
   std::vector<std::pair<SwitchId, smt::TermId>> askedSettings_;
   std::optional<smt::TermId> tolerance_;
   Grids grids_;
+  Increments increments_;
   std::optional<Place> place_;
   std::set<Place> rounded_; // by roundAlways()
   std::vector<TakenAsSmall> exact_;

@@ -137,6 +137,9 @@ def in_range(clause, reckoner) -> bool:
         return "OPTIONAL" in words
     if "INT" in words and value.denominator != 1:
         return False
+    step = step_of(words)
+    if step and (F(repr(float(value))) / step).denominator != 1:
+        return False
     if "IN" in words:
         return value in [Model.held(F(each)) for each in words[words.index("IN") + 1].split(",")]
     ends = ends_of(clause)
@@ -146,12 +149,18 @@ def in_range(clause, reckoner) -> bool:
     return (low is None or value >= low) and (high is None or value <= high)
 
 
+def step_of(words):
+    """Of `BY 0.001`."""
+    return F(words[words.index("BY") + 1]) if "BY" in words else None
+
+
 def range_ends(clause, reckoner):
-    """(low, high, whole, optional, values) for those who draw arguments."""
+    """(low, high, grid, optional, values) for those who draw arguments; grid: numbers by unit, None: any."""
     words = clause.split()
     values = [Model.held(F(each)) for each in words[words.index("IN") + 1].split(",")] if "IN" in words else []
     low, high = (None if each is None else reckoner.whole(each) for each in ends_of(clause) or (None, None))
-    return low, high, "INT" in words, "OPTIONAL" in words, values
+    grid = 1 / step_of(words) if "BY" in words else F(1) if "INT" in words else None
+    return low, high, grid, "OPTIONAL" in words, values
 
 
 def promise_holds(clause, visit, ask) -> bool:

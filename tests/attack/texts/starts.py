@@ -1,4 +1,5 @@
 """What runs begin with: on and beside the ends of ranges, numbers of the text, vacant ones."""
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction as F
@@ -94,7 +95,7 @@ class Starts:
     def inside(self, clause, start):
         state = StateOf(start)
         try:
-            low, high, whole, optional, values = contract.range_ends(clause, contract.reckoner_at(state, Switches()))
+            low, high, grid, optional, values = contract.range_ends(clause, contract.reckoner_at(state, Switches()))
         except (Stop, Unsaid):
             return None
         rng = self.rng
@@ -104,11 +105,13 @@ class Starts:
             return rng.choice(values)
         low = (high if high is not None else F(0)) - 20 if low is None else low
         high = low + 20 if high is None else high
-        if Model.doubles and not whole and rng.random() < 0.8:
+        if Model.doubles and not grid and rng.random() < 0.8:
             return between(low, high, rng)
-        grid = 1 if whole else rng.choice((1, 2, 8))
-        inside = [F(n, grid) for n in range(int(low * grid) - 1, int(high * grid) + 2) if low <= F(n, grid) <= high] or [low]
-        return rng.choice((inside[0], inside[-1], rng.choice(inside), rng.choice(inside)))
+        grid = grid or rng.choice((1, 2, 8))
+        first, last = math.ceil(low * grid), math.floor(high * grid)
+        if first > last:
+            return low
+        return Model.held(F(rng.choice((first, last, rng.randint(first, last), rng.randint(first, last)))) / grid)
 
     def outside(self) -> Start:
         """With one clause that may be broken."""

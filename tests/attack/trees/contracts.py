@@ -19,6 +19,7 @@ class Range:
     whole: bool = False
     optional: bool = False
     is_global: bool = False
+    step: Optional[Fraction] = None
 
     def text(self) -> str:
         words = ["@GLOBAL" if self.is_global else "@PARAM", f"#{self.variable}"]
@@ -28,6 +29,8 @@ class Range:
             words.append(f"{_bound(self.low)}..{_bound(self.high)}")
         if self.whole:
             words.append("INT")
+        if self.step:
+            words.append(f"BY {_with_zero(decimal(self.step))}")
         if self.optional:
             words.append("OPTIONAL")
         return " ".join(words)
@@ -36,6 +39,8 @@ class Range:
         if value is None:
             return self.optional
         if self.values and value not in self.values:
+            return False
+        if self.step and (Fraction(repr(float(value))) / self.step).denominator != 1:
             return False
         if self.low is not None and value < evaluator.value(self.low):
             return False

@@ -8,7 +8,7 @@ from . import syntax
 from .machine import Inputs, Machine
 from .choices import Choices
 from .random_programs import ALIASES, expressions_of
-from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled
+from .values import Arithmetic, ControlAlarm, Evaluator, Model, Unmodelled
 
 EIGHTH = Fraction(1, 8)
 START_CODES = ("G91", "G91", "G1", "G18", "G99", "G95")
@@ -99,9 +99,9 @@ class InputMaker:
             low = (high if high is not None else Fraction(0)) - 20
         if high is None:
             high = low + 20
-        grid = 1 if clause.whole else self.rng.choice((1, 2, 8))
-        inside = [Fraction(n, grid) for n in range(int(low * grid) - 1, int(high * grid) + 2)
-                  if low <= Fraction(n, grid) <= high]
+        grid = 1 / clause.step if clause.step else 1 if clause.whole else self.rng.choice((1, 2, 8))
+        inside = [Model.held(Fraction(n) / grid) for n in range(int(low * grid) - 1, int(high * grid) + 2)
+                  if low <= Fraction(n) / grid <= high]
         if not inside:
             return low
         roll = self.rng.random()

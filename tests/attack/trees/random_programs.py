@@ -353,8 +353,9 @@ class ContractMaker:
         whole = self.rng.random() < 0.3
         if whole:
             low, high = math.floor(low), math.floor(high)
+        step = self.rng.choice((Fraction(1, 10), Fraction(1, 1000))) if not whole and self.rng.random() < 0.3 else None
         return contracts.Range(variable, number(low), number(high) if self.rng.random() < 0.9 else None,
-                               whole=whole, optional=optional, is_global=is_global)
+                               whole=whole, optional=optional, is_global=is_global, step=step)
 
     def guard(self, program: Program):
         """Guards for the clauses, most of the time all that are needed."""
@@ -363,7 +364,7 @@ class ContractMaker:
             if self.rng.random() < 0.06:
                 continue
             match clause:
-                case contracts.Range(variable, low, high, values, whole, optional, _):
+                case contracts.Range(variable, low, high, values, whole, optional, _, _):
                     if not optional:
                         guards.append(Relation("EQ", Variable(variable), Variable(0)))
                     if values:

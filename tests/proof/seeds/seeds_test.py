@@ -62,10 +62,12 @@ class Seeds(unittest.TestCase):
         cls.rounded = proofs()
 
     def test_verdict_of_every_obligation(self):
-        found = {path: ({row["id"]: row["verdict"] for row in rows},
-                        {row["id"]: row["bound"] for row in rows if row["bound"]})
-                 for path, rows in self.files.items()}
-        self.assertEqual(found, expected())
+        self.assertEqual(sorted(self.files), sorted(expected()))
+        for path, rows in self.files.items():
+            verdicts, passes = expected()[path]
+            with self.subTest(path=path):
+                self.assertEqual({row["id"]: row["verdict"] for row in rows}, verdicts)
+                self.assertEqual({row["id"]: row["bound"] for row in rows if row["bound"]}, passes)
 
     def test_verdicts_in_the_arithmetic_of_the_control(self):
         found = {path: {row["id"]: row["verdict"] for row in rows} for path, rows in self.rounded.items()}
