@@ -1,5 +1,4 @@
-// coolant-off-at-change: `M08`, and later `M06 T8` and cuts, and no other `M08`.  "If the spindle is running, the
-// spindle and coolant (including TSC) will be stopped by the M06 command" (Haas mill operator's manual, M06).
+// coolant-off-at-change: `M08`, and later `M06 T8` and cuts, and no other `M08`.
 #include "rules/motion/tool_sections.h"
 
 #include <fmt/format.h>
