@@ -16,7 +16,7 @@ struct Form {
   std::string_view second;
 };
 
-/// As the manuals of FANUC have them (B-64604EN-1, multiple repetitive cycles).
+/// The multiple repetitive cycles in the format of two blocks.
 constexpr Form kForms[] = {{CodeAction::TurnContour, "UR", "PQ"},   {CodeAction::FaceContour, "WR", "PQ"},
                            {CodeAction::RepeatContour, "UR", "PQ"}, {CodeAction::ThreadPasses, "PQ", "XZ"},
                            {CodeAction::FaceGroove, "R", "ZF"},     {CodeAction::DiameterGroove, "R", "XF"}};
