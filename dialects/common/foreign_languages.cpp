@@ -46,6 +46,7 @@ constexpr std::array kGrbl = {
     LanguageHint{TextSignal::OWord, 30},       LanguageHint{TextSignal::AngleName, 30},
     LanguageHint{TextSignal::GrblCommand, 70}, LanguageHint{TextSignal::GrblComment, 40},
     LanguageHint{TextSignal::GrblFile, 70},    LanguageHint{TextSignal::MacroBranch, -60},
+    LanguageHint{TextSignal::GrblProbe, 70},
 };
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},

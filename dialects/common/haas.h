@@ -82,6 +82,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;
   dialect.behaviour.repeatsByK = false; // K is the smallest peck
+  dialect.behaviour.oneBlockCycles = true;
   dialect.behaviour.cyclesNeedXY = true;
   dialect.behaviour.cyclesAreScaled = false;
   dialect.behaviour.feedByIncrements = true;
@@ -90,6 +91,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.behaviour.logicOfIntegerParts = true;
   if (machine == MachineKind::Milling) {
     dialect.behaviour.toolChangeReturnsZ = true;
+    dialect.behaviour.toolChangeStopsCoolant = true;
     dialect.behaviour.cutterOffsets = {{2401, 0}, {2601, 0}, 200};
     dialect.behaviour.lengthOffsets = {{2001, 0}, {2201, 0}, 200};
   }

@@ -51,8 +51,10 @@ private:
     if (corners.empty())
       return;
     const BlockId block = contour.cycle->block;
-    judge(findWord(context_.tree, block, 'U'), 'X', *start.x, sideOf(corners, *start.x, &TurningPoint::x), contour,
-          reporter);
+    const Side side = sideOf(corners, *start.x, &TurningPoint::x);
+    // The contour of a bore that lies below the start is cut from the wrong side: its allowance is right.
+    if (side != Side::Below || !isOfBore(corners))
+      judge(findWord(context_.tree, block, 'U'), 'X', *start.x, side, contour, reporter);
     if (isMonotone(corners))
       judge(findWord(context_.tree, block, 'W'), 'Z', *start.z, sideOf(corners, *start.z, &TurningPoint::z), contour,
             reporter);

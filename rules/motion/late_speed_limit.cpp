@@ -14,9 +14,6 @@ bool does(const Code *code, std::initializer_list<CodeAction> actions) {
   return code && std::ranges::find(actions, code->action) != actions.end();
 }
 
-/// Programs that speak of G95 write the limit of code system A all the same.
-bool isLimitOfSystemA(const Word &word) { return word.address() == 'G' && word.isNumber() && word.tenths() == 500; }
-
 /// Follows G96, M03 and the limit through the text of one program.
 class Reader {
 public:
@@ -28,20 +25,12 @@ public:
       isLimited_ = true;
     if (isLimited_)
       return;
-    const Word *limit = nullptr;
-    const Word *speed = nullptr;
-    for (const Word &word : context_.tree.wordsOf(block)) {
-      const Code *code = word.isCode() ? codeOf(word, context_.dialect) : nullptr;
-      if (does(code, {CodeAction::CoordinateSet}) || isLimitOfSystemA(word))
-        limit = &word;
-      if (word.address() == 'S')
-        speed = &word;
-      readCode(word, code);
-    }
-    if (limit && speed) {
+    for (const Word &word : context_.tree.wordsOf(block))
+      readCode(word, word.isCode() ? codeOf(word, context_.dialect) : nullptr);
+    if (const auto limit = speedLimitIn(block, context_)) {
       isLimited_ = true;
       if (surface_ && start_)
-        tell(*limit, *speed, reporter);
+        tell(*limit, reporter);
     }
   }
 
@@ -62,12 +51,11 @@ private:
       moved_ = nullptr;
   }
 
-  void tell(const Word &limit, const Word &speed, const Reporter &reporter) const {
+  void tell(const SpeedLimit &limit, const Reporter &reporter) const {
     Diagnostic diagnostic{
-        .message =
-            fmt::format("{} limits the speed only after {} has started the spindle without a limit",
-                        context_.quoted({limit.span().begin, speed.span().end}), context_.quoted(surface_->span())),
-        .span = {limit.span().begin, speed.span().end},
+        .message = fmt::format("{} limits the speed only after {} has started the spindle without a limit",
+                               context_.quoted(limit.span()), context_.quoted(surface_->span())),
+        .span = limit.span(),
         .labels = {{surface_->span(), "constant surface speed"}},
         .notes = {"with constant surface speed the spindle gets faster the nearer the tool is to the centre, here up "
                   "to the limit of the program before",

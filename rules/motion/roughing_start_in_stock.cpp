@@ -42,6 +42,17 @@ private:
     const bool isBeside = isOutside ? *least.x >= *start.x : *most.x <= *start.x;
     if (beyond > kClearly && !isBeside)
       tell(*code, start, isOutside ? most : least, isOutside, reporter);
+    else if (beyond > kClearly && !isOutside && isOfBore(corners))
+      tellOutsideBore(*code, start, most, reporter);
+  }
+
+  void tellOutsideBore(const Word &code, const TurningPoint &start, const TurningPoint &widest,
+                       const Reporter &reporter) const {
+    reporter.report({.message = fmt::format("{} starts at X{:g}, outside of the bore, whose widest diameter is X{:g}",
+                                            context_.quoted(code.span()), *start.x, *widest.x),
+                     .span = code.span(),
+                     .notes = {"the cycle cuts towards its contour: from there it goes into the face of the part",
+                               "start the cycle at the diameter of the hole, or inside it"}});
   }
 
   void tell(const Word &code, const TurningPoint &start, const TurningPoint &corner, bool isOutside,
@@ -65,7 +76,8 @@ private:
 extern const Rule roughingStartInStock;
 const Rule roughingStartInStock{
     .info = {"roughing-start-in-stock", Category::Motion, Severity::Warning,
-             "Reports a roughing cycle of a lathe that starts inside the diameters to which its contour goes out."},
+             "Reports a roughing cycle of a lathe that starts inside the diameters to which its contour goes out, or "
+             "outside of the bore."},
     .hooks = {.program = readTurningProgram<Reader>}};
 
 } // namespace feedhold::rules::roughing_start_in_stock

@@ -71,7 +71,7 @@ private:
 
   /// Chooses the move that is reported; false: none is.
   bool isOfMill(const FlowFacts &facts) {
-    if (!first_.node())
+    if (!first_.node() || standsOnPurpose())
       return false;
     if (preparesTool(facts))
       return true;
@@ -83,7 +83,8 @@ private:
     return true;
   }
   bool isOfLathe(const FlowFacts &facts) {
-    if (first_.node() && preparesTool(facts) && !pullsBar() && (isLateOnLathe(facts) || neverStartsOnLathe(facts)))
+    if (first_.node() && preparesTool(facts) && !standsOnPurpose() &&
+        (isLateOnLathe(facts) || neverStartsOnLathe(facts)))
       return true;
     if (!thread_.node() || isStartedInFile() || !comesToItsEnd(facts) || !isNumbered() ||
         !view_.context().model.callsOf(view_.program()).empty())
@@ -91,18 +92,28 @@ private:
     first_ = thread_; // which no spindle at rest can cut
     return true;
   }
-  /// A tool that takes the bar by its end, as a remark says: the spindle has to stand.
-  bool pullsBar() const {
+  /// A tool that takes the bar by its end, or a probe, as a remark says: the spindle has to stand.
+  bool standsOnPurpose() const {
+    return remarkSays({"PULL", "STOCK TRANSFER", "BAR STOP", "BAR FEED", "STOP BAR"}, TellOf::AllTools) ||
+           remarkSays({"PROBE"}, TellOf::ThisTool);
+  }
+  enum class TellOf : std::uint8_t { AllTools, ThisTool };
+  /// Above the first cut, from the head of the program or from the last tool change.
+  bool remarkSays(std::initializer_list<std::string_view> words, TellOf of) const {
     const FileContext &context = view_.context();
-    const Program &its = context.model.programs[view_.program()];
-    for (BlockId block = its.first; block <= view_.node(*first_.node()).block; block = block.next())
+    bool says = false;
+    for (BlockId block = context.model.programs[view_.program()].first; block <= view_.node(*first_.node()).block;
+         block = block.next()) {
+      const bool isOther = of == TellOf::ThisTool &&
+                           findAction(context.tree, block, context.dialect, {CodeAction::ToolChange}) != nullptr;
+      says = says && !isOther;
       for (const Comment &comment : context.tree.commentsOf(block)) {
         const std::string text = toUpper(context.text(comment.span));
-        for (const std::string_view part : {"PULL", "STOCK TRANSFER", "BAR STOP", "BAR FEED", "STOP BAR"})
-          if (text.find(part) != std::string::npos)
-            return true;
+        says = says ||
+               std::ranges::any_of(words, [&](std::string_view word) { return text.find(word) != std::string::npos; });
       }
-    return false;
+    }
+    return says;
   }
   /// Its code, with an end point in the block.
   const Word *threadIn(NodeId node) const {

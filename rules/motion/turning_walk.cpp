@@ -46,6 +46,28 @@ bool cutsThread(const Code &code) {
          code.action == CodeAction::ThreadPasses;
 }
 
+std::optional<SpeedLimit> speedLimitIn(BlockId block, const FileContext &context) {
+  // Programs write the limit of another code system than that of their other codes.
+  const bool isAlone = !namesAxis(context.tree, block);
+  const auto isLimit = [&](const Word &word) {
+    const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
+    const bool isCode = word.address() == 'G' && word.isNumber();
+    return (code && code->action == CodeAction::CoordinateSet) || (isCode && word.tenths() == 500) ||
+           (isCode && word.tenths() == 920 && isAlone);
+  };
+  const auto words = context.tree.wordsOf(block);
+  const auto limit = std::ranges::find_if(words, isLimit);
+  const Word *speed = findWord(context.tree, block, 'S');
+  return limit == words.end() || !speed ? std::nullopt : std::optional(SpeedLimit{&*limit, speed});
+}
+
+bool isOfBore(const std::vector<TurningPoint> &corners) {
+  const auto x = [](const TurningPoint &corner) { return *corner.x; };
+  const auto deepest = std::ranges::min_element(corners, {}, [](const TurningPoint &corner) { return *corner.z; });
+  return deepest != corners.end() && std::ranges::is_sorted(corners, std::ranges::greater{}, x) &&
+         *deepest->x < *corners.front().x;
+}
+
 TurningWalk::TurningWalk(ProgramId program, const FileContext &context)
     : context_(context), hidden_(program, context), contours_(contoursOf(program, context)) {}
 

@@ -26,6 +26,17 @@ enum class TurningMove : std::uint8_t {
 /// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
 bool cutsThread(const Code &code);
 
+/// `G50 S2500`, `G92 S2500`: the limit of the spindle.
+struct SpeedLimit {
+  const Word *code;
+  const Word *speed;
+  Span span() const { return {code->span().begin, speed->span().end}; }
+};
+std::optional<SpeedLimit> speedLimitIn(BlockId block, const FileContext &context);
+
+/// The contour goes inwards all along its way to the chuck.
+bool isOfBore(const std::vector<TurningPoint> &corners);
+
 class TurningWalk {
 public:
   TurningWalk(ProgramId program, const FileContext &context);

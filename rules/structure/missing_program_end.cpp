@@ -81,21 +81,28 @@ const Call *unseenCallIn(const FileContext &context, BlockId block) {
   return found == calls.end() ? nullptr : &*found;
 }
 
-/// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.  Behind a `%`
-/// a control reads no further, or begins there.
-bool isHeadOfFile(const FileContext &context, ProgramId id) {
+/// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.
+enum class Head : std::uint8_t {
+  No,      // a program
+  RunsOn,  // into the first program
+  Excerpt, // behind its `%` a control reads no further, or begins there
+};
+
+Head headOfFile(const FileContext &context, ProgramId id) {
   const Program &program = context.model.programs[id];
   if (id.index() != 0 || isNamed(program) || context.dialect.grammar.oWords ||
       id.next().index() >= context.model.programs.size() || !isNamed(context.model.programs[id.next()]))
-    return false;
+    return Head::No;
   bool hasBegun = false;
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     const Block &its = context.tree.blocks[block];
-    if (its.has(Block::kBroken) || (hasBegun && its.has(Block::kPercent)))
-      return false;
+    if (hasBegun && its.has(Block::kPercent))
+      return Head::Excerpt;
+    if (its.has(Block::kBroken))
+      return Head::No;
     hasBegun = hasBegun || hasContent(context, block);
   }
-  return true;
+  return Head::RunsOn;
 }
 
 /// What separates it from the next one is an O or a colon without a number, which is told there.
@@ -114,8 +121,8 @@ void tellHead(BlockId last, ProgramId id, const FileContext &context, const Repo
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
-  if (isHeadOfFile(context, id)) {
-    if (const auto last = openEnd(context, id); last && !program.isEncrypted)
+  if (const Head head = headOfFile(context, id); head != Head::No) {
+    if (const auto last = openEnd(context, id); last && head == Head::RunsOn && !program.isEncrypted)
       tellHead(*last, id, context, reporter);
     return;
   }

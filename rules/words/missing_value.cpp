@@ -7,14 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace feedhold::rules::missing_value {
 namespace {
 
 /// `X?` is how templates mark a number to be filled in.
-bool isPlaceholder(std::string_view rest) {
-  const std::string_view next = trimmed(rest);
-  return !next.empty() && next.front() == '?';
+bool isPlaceholder(const SyntaxIssue &issue, const FileContext &context) {
+  const BlockId block = context.tree.blockAt(issue.span.begin);
+  return issue.kind == SyntaxIssueKind::MissingValue &&
+         trimmed(context.text({issue.span.end, context.tree.blocks[block].end})).starts_with('?');
 }
 
 /// `:(ROUGHING)`: the colon marks a remark, and is read as the letter O.
@@ -31,18 +33,36 @@ bool isColonForEnd(const SyntaxIssue &issue, const FileContext &context) {
          trimmed(context.text({issue.span.end, block.end})).empty();
 }
 
-/// Once for all of the file: they have one cause.
-void reportColons(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  const auto isSame = [&](const SyntaxIssue &other) { return isColonOfRemark(other, context); };
-  if (std::ranges::find_if(context.tree.issues, isSame)->span.begin != issue.span.begin)
-    return;
-  const auto count = std::ranges::count_if(context.tree.issues, isSame);
+using Kind = bool (*)(const SyntaxIssue &, const FileContext &);
+
+/// How many there are of a kind, at the first of them: they have one cause.
+std::optional<std::size_t> countAtFirst(Kind isOfKind, const SyntaxIssue &issue, const FileContext &context) {
+  const auto isSame = [&](const SyntaxIssue &other) { return isOfKind(other, context); };
+  const auto &issues = context.tree.issues;
+  if (std::ranges::find_if(issues, isSame)->span.begin != issue.span.begin)
+    return std::nullopt;
+  return static_cast<std::size_t>(std::ranges::count_if(issues, isSame));
+}
+
+void reportColons(std::size_t count, const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   reporter.report({.message = count == 1 ? "`:` stands in front of a remark"
                                          : fmt::format("`:` stands in front of a remark, in {} blocks", count),
                    .span = issue.span,
                    .notes = {fmt::format("the control reads `:` as the letter O, without a number, and {}",
                                          stopsWith(context.dialect, AlarmKind::NoDataAfterAddress)),
                              "delete the `:`; the parentheses make the remark"}});
+}
+
+void reportPlaceholders(std::size_t count, const SyntaxIssue &issue, const FileContext &context,
+                        const Reporter &reporter) {
+  reporter.report({.message = count == 1
+                                  ? fmt::format("`?` stands in place of the number of {}", context.quoted(issue.span))
+                                  : fmt::format("`?` stands in place of numbers, in {} words", count),
+                   .span = issue.span,
+                   .notes = {fmt::format("if the block is executed as it stands, the control {}",
+                                         stopsWith(context.dialect, AlarmKind::NoDataAfterAddress)),
+                             "write the number before the program goes to the machine"}},
+                  Severity::Warning);
 }
 
 /// `GO`: both letters lack a number, and one message says why.
@@ -53,10 +73,16 @@ bool isFirstIn(Span piece, const SyntaxIssue &issue, const FileContext &context)
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  if (isColonOfRemark(issue, context))
-    return reportColons(issue, context, reporter);
-  if (isPlaceholder(context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end})))
+  if (isColonOfRemark(issue, context)) {
+    if (const auto count = countAtFirst(isColonOfRemark, issue, context))
+      reportColons(*count, issue, context, reporter);
     return;
+  }
+  if (isPlaceholder(issue, context)) {
+    if (const auto count = countAtFirst(isPlaceholder, issue, context))
+      reportPlaceholders(*count, issue, context, reporter);
+    return;
+  }
   if (const auto digits = mistypedDigitsAt(issue.span.begin, context)) {
     if (isFirstIn(digits->span, issue, context))
       reporter.report(

@@ -30,6 +30,7 @@ enum class ForeignHabit : std::uint8_t {
   LongRemark,   // `(text` .. `text)` over several lines
   DecimalComma, // `F0,2`
   Checksum,     // `G01 X10 *45`
+  NamedMacroB,  // `#<depth>` beside `IF [..] GOTO` and `DO1`
 };
 
 /// Absent: the issue may be a slip of somebody who writes for this control.

@@ -24,6 +24,7 @@ constexpr std::size_t kShareOfBroken = 3;        // one block of so many
 constexpr std::size_t kFewestKinds = 4;          // of mistakes in them
 constexpr std::size_t kFewestHabits = 2;         // one remark behind `//` may be a slip
 constexpr std::size_t kFewestCommas = 3;         // a comma lies beside the point on some keyboards
+constexpr std::size_t kFewestNamed = 3;          // a name or two may come from an example for another control
 
 char charAt(std::string_view text, std::size_t at) { return at < text.size() ? text[at] : '\0'; }
 
@@ -117,7 +118,7 @@ std::string shapeOf(const SyntaxIssue &issue, const FileContext &context) {
 struct Tally {
   std::size_t unread = 0;
   Span first;
-  std::array<std::size_t, 5> habits{}; // by ForeignHabit
+  std::array<std::size_t, 5> habits{}; // by ForeignHabit, those that an issue shows
   std::set<std::string> shapes;
 };
 
@@ -203,6 +204,29 @@ bool isBrokenAllOver(const BrokenBlocks &broken, std::size_t blocks) {
          broken.kinds.size() >= kFewestKinds;
 }
 
+/// `#<depth>` is LinuxCNC's and its kin's, whose jumps have o-numbers; `IF [..] GOTO` and `DO1` are of controls without
+/// such names.  Who writes both has a control that is neither, and its other rules are not known.
+std::optional<UnreadText> namedMacroB(const FileContext &context) {
+  if (context.source.text().find("#<") == std::string_view::npos)
+    return std::nullopt;
+  std::array<std::size_t, 2> counts{}; // blocks with names, blocks with jumps or loops
+  std::array<Span, 2> first{};
+  for (BlockId id(0); id.index() < context.tree.blockCount(); id = id.next()) {
+    TextScan scan;
+    scanLine(textOf(id.index(), context), scan);
+    const bool isOfKind[] = {scan.count(TextSignal::AngleName) > 0,
+                             scan.count(TextSignal::MacroBranch) + scan.count(TextSignal::NumberedLoop) > 0};
+    for (std::size_t kind = 0; kind < counts.size(); ++kind)
+      if (isOfKind[kind] && isRead(context.tree.blocks[id]) && counts[kind]++ == 0)
+        first[kind] = context.tree.blocks[id].span();
+  }
+  if (counts[0] < kFewestNamed || counts[1] < kFewestHabits)
+    return std::nullopt;
+  const std::size_t foreign = context.dialect.grammar.namedParameters ? 1 : 0;
+  return UnreadText{counts[foreign], std::max(countBlocks(context), counts[foreign]), first[foreign],
+                    ForeignHabit::NamedMacroB};
+}
+
 } // namespace
 
 std::optional<ForeignHabit> habitAt(const SyntaxIssue &issue, const FileContext &context) {
@@ -222,6 +246,8 @@ std::optional<ForeignHabit> habitAt(const SyntaxIssue &issue, const FileContext 
 }
 
 std::optional<UnreadText> unreadTextOf(const FileContext &context) {
+  if (const std::optional<UnreadText> mixed = namedMacroB(context))
+    return mixed;
   if (context.tree.issues.size() < kFewestHabits)
     return std::nullopt;
   const Tally tally = tallyOf(context);

@@ -34,6 +34,7 @@ std::string_view describe(ForeignHabit habit) {
   case ForeignHabit::LongRemark: return "remarks go over several lines";
   case ForeignHabit::DecimalComma: return "numbers have a comma for the point";
   case ForeignHabit::Checksum: return "blocks end with a checksum";
+  case ForeignHabit::NamedMacroB: return "parameters have names such as `#<depth>`, beside jumps and loops of Macro B";
   }
   FEEDHOLD_UNREACHABLE("a habit of other languages");
 }

@@ -364,6 +364,7 @@ struct Behaviour {
   bool returnTargetIsLocal = false;     // `M99 P` jumps within its own program, also in a subprogram
   bool endRestoresModes = false;        // M02 and M30 bring G01, G17, G40, G54, G90 and G94 into force
   bool stopsAtStrayWords = false;       // words that the codes of a block do not take, or lack, are errors (LinuxCNC)
+  bool oneBlockCycles = false;          // G71 and its kin take one block; else one more before it has the depth of cut
   bool repeatsByK = true;               // K of a canned cycle repeats it; L does so everywhere
   bool machineMoveByMode = false;       // G53 feeds where G01 is in force; else it is always rapid
   bool cyclesNeedXY = false;            // a canned cycle is executed in blocks with X or Y only, and in G17
@@ -374,6 +375,7 @@ struct Behaviour {
   bool localShiftIsVariable = false;    // #5201 and on are the offsets of G52
   bool writtenOriginWaits = false;      // a written origin takes effect when its coordinate system is selected next
   bool toolChangeReturnsZ = false;      // M06 moves Z to the reference position
+  bool toolChangeStopsCoolant = false;  // M06 with the spindle running switches the coolant off
   bool referenceCancelsLength = false;  // G28 of any axis may cancel the tool length, not of Z alone
   bool logicOfIntegerParts = false;     // AND, OR, XOR drop fractions; else they round
   std::span<const CodeAction> startsIn; // in force at power-on, where other controls have other codes of these groups

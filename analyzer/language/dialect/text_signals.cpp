@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace feedhold {
 namespace {
@@ -131,10 +132,13 @@ void weighLoops(TextScan &scan) {
     scan.counts[static_cast<std::size_t>(TextSignal::LoneEndWhile)] = 0;
 }
 
-/// Shops call their Macro B so, too.
-void weighFileOfGrbl(TextScan &scan) {
+/// Shops call their Macro B `.macro`, too; printers, which have no names, take the P of `G38.2` for a number.
+void weighMarksOfGrbl(TextScan &scan) {
+  std::uint32_t &probes = scan.counts[static_cast<std::size_t>(TextSignal::PrinterProbe)];
   if (scan.count(TextSignal::OWord) == 0 && scan.count(TextSignal::AngleName) == 0)
     scan.counts[static_cast<std::size_t>(TextSignal::GrblFile)] = 0;
+  else
+    scan.counts[static_cast<std::size_t>(TextSignal::GrblProbe)] = std::exchange(probes, 0);
 }
 
 } // namespace
@@ -163,7 +167,7 @@ TextScan scanText(std::string_view text, std::string_view path) {
     at = lineEnd == end ? end : lineEnd + 1;
   }
   weighLoops(scan);
-  weighFileOfGrbl(scan);
+  weighMarksOfGrbl(scan);
   return scan;
 }
 

@@ -199,6 +199,11 @@ TEST(Guess, HobbyControls) {
   EXPECT_EQ(guessed("G38.2 Z-10 F100\n#<_a>=#5063\no1 if [#<_a> LT 0]\no1 endif\nM2\n"), "linuxcnc");
 }
 
+TEST(Guess, ThicknessOfThePlateBesideAProbingMoveIsFluidNc) {
+  EXPECT_EQ(guessed("o1 if [#<_a> GT 1]\nG53 G0 Z-20\nG38.2 G91 Z[-#<_b>] F100 P0\nG0 Z3\no1 endif\n"),
+            "RS274NGC of grblHAL or FluidNC");
+}
+
 TEST(Guess, OneSettingByItsPathIsFluidNc) {
   EXPECT_EQ(guessed("#<_a>=5\nG53 G0 Z#</probe/rapid_z>\nG53 G38.2 Z-40 F500\nD#<_a>\nM2\n", "set.nc"),
             "RS274NGC of grblHAL or FluidNC");

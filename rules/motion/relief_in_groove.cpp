@@ -1,0 +1,42 @@
+// relief-in-groove: `G75 X0.75 Z-1.625 P500 Q1250 R0.01`, where R is no retract.
+#include "rules/motion/turning_program.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules::relief_in_groove {
+namespace {
+
+void checkCycle(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Word *cycle =
+      findAction(context.tree, block, context.dialect, {CodeAction::FaceGroove, CodeAction::DiameterGroove});
+  const Word *relief = cycle ? findWord(context.tree, block, 'R') : nullptr;
+  const bool isGroove = findWord(context.tree, block, 'X') && findWord(context.tree, block, 'Z');
+  if (!relief || !isGroove || !relief->isNumber() || relief->number().isZero())
+    return;
+  reporter.report(
+      {.message = fmt::format("{} moves the tool sideways at the bottom of each cut", context.quoted(relief->span())),
+       .span = relief->span(),
+       .notes = {fmt::format("the first cut of a groove is as wide as the tool: it goes into the wall. The retract of "
+                             "the pecks is R of another {} in front of this one",
+                             context.quoted(cycle->span())),
+                 fmt::format("write `{} {}` as a block of its own, and no R here", context.text(cycle->span()),
+                             context.text(relief->span()))}});
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.behaviour.oneBlockCycles)
+    return;
+  forEachTurningCycle(program, context, [&](BlockId block, const TurningPoint &, const TurningWalk &) {
+    checkCycle(block, context, reporter);
+  });
+}
+
+} // namespace
+
+extern const Rule reliefInGroove;
+const Rule reliefInGroove{.info = {"relief-in-groove", Category::Motion, Severity::Warning,
+                                   "Reports a grooving cycle of a lathe with a sideways move at the bottom of its "
+                                   "cuts."},
+                          .hooks = {.program = check}};
+
+} // namespace feedhold::rules::relief_in_groove
