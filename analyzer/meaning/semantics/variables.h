@@ -299,8 +299,8 @@ template <ValueAlgebra R> void writeBits(StepContext<R> &context, const BitWord 
 
 template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context, std::uint32_t number, Span place) {
   auto value = detail::readAsStored(context, number, place);
-  if constexpr (requires { context.interpretation.asHeld(value); }) // a position is counted in increments
-    value = context.interpretation.asHeld(value);
+  if constexpr (requires { context.interpretation.asRead(value); }) // a position is counted in increments
+    value = context.interpretation.asRead(value);
   if (context.behaviour().variablesMayBeVacant)
     return value;
   if (number < kFirstNamedVariable)

@@ -117,26 +117,34 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
   const auto vacancy = isNumber ? MayBeVacant::No : MayBeVacant::Yes;
   const std::string name = fmt::format("#{}", variable);
   const Value value = written.step ? numberNamed(name, vacancy) : named(name, vacancy);
-  entryValues_.emplace(variable, value);
+  if (entryValues_.emplace(variable, value).second && written.step)
+    increments_.setStep(value.number, *written.step);
   if (assumesTyped_ && typed_.insert(variable).second) {
     const std::vector<TermId> typed = typedInput(variable, written, value.number);
     facts_.insert(facts_.end(), typed.begin(), typed.end());
     if (written.isWhole && !typed.empty())
       grids_.setOfInput(value.number, 0);
-    if (written.step)
-      increments_.setStep(value.number, *written.step);
   }
   entry_.insert(value.number);
   entry_.insert(value.vacant);
-  return asHeld(value);
+  return {value.vacant, written.step ? asTyped(value.number) : value.number};
 }
 
 /// As a literal is held: the nearest double, or what a control with shorter mantissas makes of that.
-SymbolicValue SymbolicInterpretation::asHeld(const Value &value) {
+TermId SymbolicInterpretation::asTyped(TermId decimal) {
+  if (arithmetic_ == Arithmetic::Exact)
+    return decimal;
+  const bool isShort = numbersOf(*dialect_) != NumberModel::Binary64;
+  return isShort ? inShortMantissa(decimal) : store_.apply(Function::Nearest, decimal);
+}
+
+SymbolicValue SymbolicInterpretation::asRead(const Value &value) {
   if (arithmetic_ == Arithmetic::Exact || !increments_.isCounted(value.number))
     return value;
-  const bool isShort = numbersOf(*dialect_) != NumberModel::Binary64;
-  return {value.vacant, isShort ? inShortMantissa(value.number) : store_.apply(Function::Nearest, value.number)};
+  if (isContract_)
+    return {value.vacant, asTyped(value.number)};
+  const TermId distance = store_.scale(Number(1) / Number(std::int64_t{1} << 31), sizeOf(value.number));
+  return {value.vacant, near(value.number, distance).number};
 }
 
 TermId SymbolicInterpretation::asCounted(TermId number) {

@@ -124,8 +124,9 @@ public:
     increments_.believeInputs(believes);
     return grids_.believeInputs(believes);
   }
-  /// A number of the control, of what a counter of increments holds.
-  Value asHeld(const Value &value);
+  /// What a program reads of a counter of increments: a number of the control, of which no manual says how it is
+  /// computed from the counter.
+  Value asRead(const Value &value);
   /// What a counter of increments holds of such a number: its multiple of a step, where it is known to be one.
   smt::TermId asCounted(smt::TermId number);
   /// What no text and no manual says comes out as in a run of the machine, in place of both ways; `settings`: those
@@ -306,6 +307,7 @@ private:
   Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);
   Value near(smt::TermId exact, smt::TermId distance);
   smt::TermId inShortMantissa(smt::TermId number);
+  smt::TermId asTyped(smt::TermId decimal);
   Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
   Value roundedWord(const Value &value, Decimal step);
   smt::TermId distanceOfWord(smt::TermId exact, const smt::Number &half);

@@ -48,7 +48,13 @@ public:
     if (program_.proof.incomplete)
       text_ += fmt::format("  not all paths were explored: {}\n", *program_.proof.incomplete);
     text_ += '\n';
-    forEach(Verdict::Refuted, [&](const Obligation &obligation) { picture(obligation, witnessNotes(obligation)); });
+    const std::vector<const Obligation *> alarms = alarmsOfTable();
+    forEach(Verdict::Refuted, [&](const Obligation &obligation) {
+      if (std::ranges::find(alarms, &obligation) == alarms.end())
+        picture(obligation, witnessNotes(obligation));
+      else if (&obligation == alarms.front())
+        table(alarms);
+    });
     forEach(Verdict::Unknown, [&](const Obligation &obligation) {
       picture(obligation, {fmt::format("{}", obligation.verdict.reason())});
     });
@@ -67,6 +73,38 @@ private:
         visit(obligation);
   }
 
+  /// Alarms that calls raise, one finding for all: most of them are the guards of the program.  One alone is none.
+  std::vector<const Obligation *> alarmsOfTable() {
+    std::vector<const Obligation *> alarms;
+    forEach(Verdict::Refuted, [&](const Obligation &row) {
+      const prove::Guard *guard = row.verdict.guard();
+      if (row.kind == prove::ObligationKind::AlarmUnreachable && row.verdict.witness() && !(guard && guard->fix))
+        alarms.push_back(&row);
+    });
+    return alarms.size() > 1 ? alarms : std::vector<const Obligation *>();
+  }
+
+  void table(const std::vector<const Obligation *> &alarms) {
+    std::vector<std::string> notes;
+    for (const Obligation *row : alarms) {
+      const TypedWitness witness = typed(*row->verdict.witness(), file_, program_, report_);
+      const std::string remedy = row->verdict.guard() ? "; " + remedyOf(*row->verdict.guard()) : "";
+      notes.push_back(fmt::format("line {}: {}: {}{} [{}]", lineOf(*row), textOf(witness),
+                                  happenedIn(*row->verdict.witness(), *row, file_.project->dialect()), remedy,
+                                  row->id));
+    }
+    notes.push_back("replay the first: " + typed(*alarms.front()->verdict.witness(), file_, program_, report_).run());
+    notes.push_back("declare the alarms that are meant with `@ALARM`; `feedhold draft` writes these clauses");
+    const Diagnostic diagnostic{.message = fmt::format("{} alarms of this program can be raised", alarms.size()),
+                                .span = alarms.front()->span,
+                                .notes = std::move(notes)};
+    show(diagnostic, *alarms.front());
+  }
+
+  std::uint32_t lineOf(const Obligation &row) const {
+    return file_.project->file(row.place.file).source.lineOf(row.span.begin);
+  }
+
   void picture(const Obligation &obligation, std::vector<std::string> notes) {
     Diagnostic diagnostic{
         .message = messageOf(obligation, file_.project->dialect()), .span = obligation.span, .notes = std::move(notes)};
@@ -75,6 +113,10 @@ private:
       if (obligation.verdict.guard()->fix)
         addFix(diagnostic, *obligation.verdict.guard()->fix, file_.project->file(obligation.place.file).source);
     }
+    show(diagnostic, obligation);
+  }
+
+  void show(const Diagnostic &diagnostic, const Obligation &obligation) {
     const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.project->file(id).source; };
     text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
                     file_.project->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
@@ -143,9 +185,8 @@ private:
   }
 
   void line(const Obligation &obligation) {
-    const std::uint32_t at = file_.project->file(obligation.place.file).source.lineOf(obligation.span.begin);
     const std::string_view grade = obligation.verdict.grade() ? nameOf(*obligation.verdict.grade()) : "";
-    text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
+    text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, lineOf(obligation),
                          claimOf(obligation, file_.project->dialect()), obligation.id);
     if (const std::string why = whyOf(obligation); !why.empty())
       text_ += fmt::format("            {}\n", why);
