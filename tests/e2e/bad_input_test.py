@@ -57,6 +57,12 @@ class BadInput(Scratch):
         self.assertIn("picture.nc", self.check("picture.nc", "bad.nc").stderr)
         self.assertExit(self.check_beside_bad("picture.nc"), 1)
 
+    def test_file_of_one_word(self):
+        """Nothing is read before its first sign or behind its last one."""
+        for index, word in enumerate(("T0101", "N10", "O", "G", "%", "(", "#", "[", "P1", "M", "T", ";", "/", "X-", "-", ".")):
+            self.write(f"word{index}.nc", word)
+            self.assertExit(self.check_beside_bad(f"word{index}.nc"), 1)
+
     def test_empty_file(self):
         self.write("empty.nc", "")
         self.assertExit(self.check_beside_bad("empty.nc"), 1)

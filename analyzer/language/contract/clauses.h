@@ -52,6 +52,8 @@ struct SetUpValue {
 std::vector<SetUpValue> readWorkOffset(ClauseReader &reader, const ContractReading &reading);
 /// Of `@LENGTH H1 50..200`
 LengthRange readLength(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
+/// Behind `BY`; absent: the clause has an issue.
+std::optional<Decimal> readStep(ClauseReader &reader, const ContractReading &reading);
 /// Of `@CORNER 0.05`; absent: the clause has an issue.
 std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
 /// Behind HOME: to where G28 returns.  Machine zero, unless the control keeps it in variables.

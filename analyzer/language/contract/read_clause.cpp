@@ -103,7 +103,7 @@ private:
     value.values = readValues(value.name);
     readUnit(value);
     if (reader_.take("BY"))
-      readStep(value);
+      value.step = readStep(reader_, reading_);
     if (reader_.take("OPTIONAL"))
       value.vacancy = Vacancy::Possible;
     if (isRead())
@@ -162,16 +162,6 @@ private:
     }
     value.unit = static_cast<Unit>(found - std::begin(kUnitNames));
     value.unitSpan = reader_.name("a unit");
-  }
-
-  void readStep(EntryValue &value) {
-    const Span span = reader_.ahead();
-    constexpr std::string_view kExpected = "a step from 0.0001 to 1, such as `0.001`";
-    const ExpressionId number = reader_.value(kExpected);
-    const auto step = reader_.failed() ? std::nullopt : literalValue(reading_.result.tree, number);
-    if (!step || *step < Decimal(1, 4) || *step > Decimal::fromInteger(1))
-      reader_.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
-    value.step = step;
   }
 
   void require() {

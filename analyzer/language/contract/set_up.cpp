@@ -68,6 +68,16 @@ LengthRange readLength(ClauseReader &reader, const ContractReading &reading, Cla
   return length;
 }
 
+std::optional<Decimal> readStep(ClauseReader &reader, const ContractReading &reading) {
+  const Span span = reader.ahead();
+  constexpr std::string_view kExpected = "a step from 0.0001 to 1, such as `0.001`";
+  const ExpressionId number = reader.value(kExpected);
+  const auto step = reader.failed() ? std::nullopt : literalValue(reading.result.tree, number);
+  if (!step || *step < Decimal(1, 4) || *step > Decimal::fromInteger(1))
+    reader.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
+  return step;
+}
+
 std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractReading &reading, ClauseId clause) {
   constexpr std::string_view kExpected = "how far the tool leaves the path at corners: a number from 0, such as `0.05`";
   const Span span = reader.ahead();

@@ -19,7 +19,7 @@ bool LineScanner::isDrillHead() const {
       beginsUpper(line, "METRIC,"))
     return true;
   const std::size_t end = line.size() > 1 && toUpper(line[0]) == 'T' ? line.find_first_not_of("0123456789", 1) : 0;
-  return end > 1 && end + 1 < line.size() && toUpper(line[end]) == 'C' &&
+  return end > 1 && end < line.size() - 1 && toUpper(line[end]) == 'C' &&
          line.find_first_not_of("0123456789.", end + 1) == std::string_view::npos && line.find('.') != line.npos;
 }
 

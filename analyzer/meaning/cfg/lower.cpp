@@ -15,9 +15,28 @@ BlockId endOfRead(const SyntaxTree &tree, const Program &program) {
   return block;
 }
 
+constexpr std::string_view kDefinesInside = "a subroutine that is defined within a branch, a loop or another one";
+
+/// LinuxCNC stops at such a definition that it comes to twice, and at a call of one that it has not come to.
+bool definesInside(const ProgramModel &model) {
+  OWordId end(0);
+  bool isOpen = false;
+  for (const Construct &construct : model.constructs) { // by place of their heads
+    const OWordId head = construct.parts.front();
+    if (construct.kind == OWordKind::Sub) {
+      if (isOpen || head < end)
+        return true;
+      isOpen = !construct.closed;
+    }
+    end = std::max(end, construct.parts.back());
+  }
+  return false;
+}
+
 } // namespace
 
 Cfg Lowering::run() {
+  definesInside_ = definesInside(model_);
   const std::size_t blocks = tree_.blocks.size();
   cfg_.nodes.reserve(blocks + blocks / 8 + 2 * model_.programs.size());
   cfg_.blockNode.assign(blocks, NodeId(0));
@@ -39,6 +58,8 @@ void Lowering::program(ProgramId id) {
   nextJump_ = model_.jumpsIn(BlockId(0), program.first).size();
   block_ = program.first;
   cfg_.entries.push_back(emit(Pass{}));
+  if (definesInside_)
+    emit(Havoc{kDefinesInside});
   ProgramId inside = id.next();
   BlockId at = program.first;
   const BlockId endOfText = endOfRead(tree_, program);

@@ -110,6 +110,7 @@ private:
   const ProgramModel &model_;
   const Dialect &dialect_;
   const ReturnTargets &returns_;
+  bool definesInside_ = false;
   Cfg cfg_;
   BlockId block_{0};
   std::size_t nextCall_ = 0; // in model_.calls: the first one that is not before the block

@@ -44,6 +44,8 @@ void append(std::vector<TakenAsSmall> &to, const std::vector<TakenAsSmall> &from
 
 } // namespace
 
+TermId shortRounding(smt::TermStore &store, TermId size) { return store.scale(powerOfTwo(-32), size); }
+
 void Increments::setStep(TermId variable, const Number &step) {
   steps_.insert_or_assign(variable, step);
   known_.clear();
@@ -164,13 +166,26 @@ std::optional<TermId> Increments::sumOfWords(TermId sum) {
   return multiple ? std::optional(multiple->exact) : std::nullopt;
 }
 
+/// As a control holds what is typed: not what is computed, which may be off by more.
+std::optional<TermId> Increments::heldFrom(TermId held) const {
+  const smt::Term &term = store_[held];
+  if (!smt::isRounding(term))
+    return held;
+  const TermId typed = term.arguments.front();
+  if (term.function == Function::Nearest)
+    return typed;
+  const auto isShort = [&](TermId size) { return term.arguments[1] == shortRounding(store_, size); };
+  const bool isHeld = isShort(typed) || isShort(store_.absolute(typed));
+  return isHeld ? std::optional(typed) : std::nullopt;
+}
+
 TermId Increments::typedInput(TermId number) const {
-  const TermId exact = smt::isRounding(store_[number]) ? store_[number].arguments.front() : number;
-  return steps_.contains(exact) ? exact : number;
+  const auto exact = heldFrom(number);
+  return exact && steps_.contains(*exact) ? *exact : number;
 }
 
 std::optional<Multiple> Increments::typedNumber(TermId number) {
-  const TermId typed = smt::isRounding(store_[number]) ? store_[number].arguments.front() : number;
+  const TermId typed = heldFrom(number).value_or(number);
   return store_.isNumber(typed) || steps_.contains(typed) ? of(typed) : std::nullopt;
 }
 

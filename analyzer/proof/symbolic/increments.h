@@ -29,6 +29,9 @@ struct Multiple {
   std::vector<TakenAsSmall> small; // these are as small as is said here
 };
 
+/// How far a number of this size is from that of a control with mantissas of 32 bits, at most.
+smt::TermId shortRounding(smt::TermStore &store, smt::TermId size);
+
 class Increments {
 public:
   explicit Increments(smt::TermStore &store) : store_(store) {}
@@ -62,6 +65,7 @@ private:
   std::optional<Multiple> ofSum(smt::TermId sum);
   std::optional<Multiple> ofChoice(smt::TermId choice);
   std::optional<Multiple> ofRounded(smt::TermId rounded);
+  std::optional<smt::TermId> heldFrom(smt::TermId held) const;
   std::optional<Multiple> typedNumber(smt::TermId number);
 
   smt::TermStore &store_;

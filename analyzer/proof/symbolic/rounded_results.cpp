@@ -48,7 +48,7 @@ void SymbolicInterpretation::hold(Value &value, const Expression &expression) {
 }
 
 TermId SymbolicInterpretation::inShortMantissa(TermId number) {
-  return near(number, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(number))).number;
+  return near(number, shortRounding(store_, sizeOf(number))).number;
 }
 
 // ---- results as doubles ----
@@ -197,6 +197,10 @@ TermId SymbolicInterpretation::isMultiple(TermId number, const Number &step) {
   const TermId steps =
       store_.floor(store_.add(store_.scale(Number(1) / step, number), store_.number(Number(1) / Number(2))));
   const TermId multiple = store_.scale(step, steps);
+  if (store_.isNumber(number) && numbersOf(*dialect_) != NumberModel::Binary64)
+    if (const double held = store_[number].number.toDouble();
+        held == mantissa32::nearest(store_[multiple].number.toDouble()))
+      return store_.yes();
   return store_.equal(number, arithmetic_ == Arithmetic::Exact ? multiple : store_.apply(Function::Nearest, multiple));
 }
 
