@@ -125,9 +125,8 @@ constexpr std::array kAcramatic = {
     LanguageHint{TextSignal::AlignmentBlock, 12},
 };
 constexpr std::array kPrinter = {
-    LanguageHint{TextSignal::PrinterMessage, 15},
-    LanguageHint{TextSignal::PrinterHeater, 8},
-    LanguageHint{TextSignal::PrinterText, 15},
+    LanguageHint{TextSignal::PrinterMessage, 15}, LanguageHint{TextSignal::PrinterObject, 60},
+    LanguageHint{TextSignal::PrinterHeater, 8},   LanguageHint{TextSignal::PrinterText, 15},
     LanguageHint{TextSignal::PrinterProbe, 20}, // more than all that G38 speaks for LinuxCNC
     LanguageHint{TextSignal::TemplateName, 8},
 };

@@ -16,14 +16,21 @@ inline constexpr std::array kMacroBHints = {
 
 /// Only turning dialects carry these: milling is what is assumed.
 inline constexpr std::array kTurningHints = {
-    LanguageHint{TextSignal::TurningCycle, 6},    LanguageHint{TextSignal::SpindleLimit, 16},
-    LanguageHint{TextSignal::SurfaceSpeed, 3},    LanguageHint{TextSignal::TurretTool, 2},
+    LanguageHint{TextSignal::TurningCycle, 6},
+    LanguageHint{TextSignal::SpindleLimit, 16},
+    LanguageHint{TextSignal::SurfaceSpeed, 3},
+    LanguageHint{TextSignal::TurretTool, 2},
     LanguageHint{TextSignal::ThreadPass, 6}, // a mill threads by G33
-    LanguageHint{TextSignal::IncrementalAxis, 1}, LanguageHint{TextSignal::YAxis, -4},
-    LanguageHint{TextSignal::LengthOffset, -6},   LanguageHint{TextSignal::ToolChange, -4},
+    LanguageHint{TextSignal::IncrementalHome, 4},
+    LanguageHint{TextSignal::IncrementalAxis, 1},
+    LanguageHint{TextSignal::YAxis, -4},
+    LanguageHint{TextSignal::LengthOffset, -6},
+    LanguageHint{TextSignal::ToolChange, -4},
     LanguageHint{TextSignal::DistanceMode, -3}, // in G code system A, `G90` is a cycle and `G91` is none
-    LanguageHint{TextSignal::PlaneMove, 1},       LanguageHint{TextSignal::LatheName, 4},
-    LanguageHint{TextSignal::MillName, -4},       LanguageHint{TextSignal::SystemBCycle, 3},
+    LanguageHint{TextSignal::PlaneMove, 1},
+    LanguageHint{TextSignal::LatheName, 4},
+    LanguageHint{TextSignal::MillName, -4},
+    LanguageHint{TextSignal::SystemBCycle, 3},
 };
 
 } // namespace feedhold

@@ -1,4 +1,5 @@
 // undocumented-argument: `(A=WIDTH, X=CENTER, Y=CENTER)` at the head of a macro that moves to X#4.
+#include "base/support/text.h"
 #include "rules/comments/argument_list.h"
 #include "rules/flow/definitions.h"
 
@@ -47,6 +48,16 @@ bool isAskedFor(const FlowFacts &facts, std::uint32_t variable) {
   return tests > reliances || (tests == 0 && isTested(facts.file, facts.program, variable));
 }
 
+/// `(#1 BEGINNING Z <A>)`: a remark of its own, anywhere in the file.
+bool hasRemark(const FileContext &context, std::uint32_t variable) {
+  const std::string_view text = context.source.text();
+  const std::string head = fmt::format("(#{}", variable);
+  for (std::size_t at = text.find(head); at != std::string_view::npos; at = text.find(head, at + 1))
+    if (const std::size_t end = at + head.size(); end < text.size() && !isDigit(text[end]))
+      return true;
+  return false;
+}
+
 /// Reads of arguments that the list does not name, as a call has passed them; the first of each variable.
 std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context, const ArgumentList &list) {
   std::vector<Read> found;
@@ -55,7 +66,7 @@ std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context,
                          !list.variables.contains(*read.number) &&
                          std::ranges::find(found, read.number, &Read::number) == found.end();
     if (!isOther || isAskedFor(facts, *read.number) || isPassed(facts, *read.number) ||
-        isInBrokenBlock(context, facts.program, *read.number))
+        isInBrokenBlock(context, facts.program, *read.number) || hasRemark(context, *read.number))
       continue;
     const auto node = nodeOf(facts, read.block, read.expression);
     const auto known = node ? definitionsOf(facts, *read.number, *node) : std::nullopt;

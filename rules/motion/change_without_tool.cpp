@@ -8,8 +8,10 @@
 namespace feedhold::rules::change_without_tool {
 namespace {
 
+/// By T, or by the Q of an M61.
 bool namesTool(const FileContext &context, BlockId block) {
-  return std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'T'; });
+  return std::ranges::any_of(context.tree.wordsOf(block),
+                             [](const Word &word) { return word.address() == 'T' || word.address() == 'Q'; });
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {

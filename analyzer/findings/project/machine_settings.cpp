@@ -19,8 +19,9 @@ namespace {
 
 // Evidence that a slip, or a slip and its copy, does not reach.
 constexpr std::size_t kFewestLengths = 20; // without a point
-constexpr std::size_t kShare = 5;          // one of so many lengths has no point
-constexpr Decimal kLongest(1000, 0);       // mm: a machinist who means least increments writes more
+constexpr std::size_t kFewestOfNearlyAll = 10;
+constexpr std::size_t kShare = 5;    // one of so many lengths has no point; one of so many of nearly all has one
+constexpr Decimal kLongest(1000, 0); // mm: a machinist who means least increments writes more
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kFewestFiles = 2;
 constexpr std::uint32_t kFirstSystemVariable = 1000;
@@ -70,8 +71,9 @@ std::optional<Found> inferDpi(const Machine &machine, Switches &switches) {
           return value >= kLongest || value <= kLongest.negated();
         }));
   }
-  if (switches.dpi != Switch::Unknown || without < kFewestLengths || without * kShare < all ||
-      isLong * kShare > without)
+  const bool areNearlyAll = without >= kFewestOfNearlyAll && (all - without) * kShare <= all;
+  const bool isHabit = areNearlyAll || (without >= kFewestLengths && without * kShare >= all);
+  if (switches.dpi != Switch::Unknown || !isHabit || isLong * kShare > without)
     return std::nullopt;
   switches.dpi = Switch::On;
   return Found{"switches", "dpi = true", fmt::format("{} of {} lengths have no decimal point", without, all)};

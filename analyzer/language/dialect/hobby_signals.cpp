@@ -20,8 +20,8 @@ void LineScanner::scanPrinterCommand() {
   }
 }
 
-/// `F$110`, a setting of GRBL as a value; `F{speed}`, an expression or a name in braces.  `${..}` and `{{..}}` are for
-/// programs that make programs.
+/// `F$110`, a setting of GRBL as a value; `F{speed}`, an expression or a name in braces, `X{param.R}`.  `${..}` and
+/// `{{..}}` are for programs that make programs.
 bool LineScanner::scanHobbyMark(char mark) {
   const char before = at_ > 1 ? line_[at_ - 2] : '\0';
   if (mark == '$' && isLetter(before) && isDigit(peek())) {
@@ -31,7 +31,10 @@ bool LineScanner::scanHobbyMark(char mark) {
   }
   if (mark != '{' || before == '$' || !(isLetter(peek()) || peek() == '"'))
     return false;
-  count(TextSignal::TemplateName);
+  static constexpr std::string_view kObjects[] = {"PARAM.", "GLOBAL.", "VAR.", "MOVE.", "STATE.", "SENSORS."};
+  const bool isOfObject =
+      std::ranges::any_of(kObjects, [&](std::string_view object) { return beginsUpper(rest(), object); });
+  count(isOfObject ? TextSignal::PrinterObject : TextSignal::TemplateName);
   stop();
   return true;
 }

@@ -24,6 +24,8 @@ void LineScanner::countLatheMarks() {
     count(TextSignal::DistanceMode);
   if ((hasLetter('U') || hasLetter('W')) && !hasLetter('Y'))
     count(TextSignal::IncrementalAxis);
+  if (gCodes_[28] && (hasLetter('U') || hasLetter('W')) && (letters_ & ~lettersOf("GMNUWT")) == 0)
+    count(TextSignal::IncrementalHome);
   if (hasNumber('X') && hasNumber('Z') && !hasLetter('Y') && !hasHome_ && !hasLetter('H'))
     count(TextSignal::PlaneMove);
   if (gCodes_[32] && hasLetter('Z') && hasLetter('F') && !hasLetter('Y'))

@@ -407,9 +407,17 @@ void LineScanner::scanMCode(const Number &number) {
   case 84: hasM84_ = true; return;
   case 97: hasM97_ = true; return;
   case 98: hasM98_ = true; return;
+  case 94:
+  case 95:
+  case 109: // `M95 /37`: an output is switched off
+    skipBlanks();
+    if (peek() == '/' && isDigit(peek(1)))
+      count(TextSignal::CentroidStatement);
+    return;
+  case 200:
   case 225:
     skipBlanks();
-    if (peek() == '#')
+    if (peek() == '#' || peek() == '"')
       count(TextSignal::CentroidStatement);
     return;
   default: return;
