@@ -20,6 +20,33 @@ void LineScanner::scanPrinterCommand() {
   }
 }
 
+/// Tool changes and calls, and what only some controls have: `M225 #140`, `M200 "PRESS START"`, `M95 /37`.
+void LineScanner::scanMCode(const Number &number) {
+  switch (number.whole) {
+  case 6: count(TextSignal::ToolChange); return;
+  case 59:
+  case 69: hasRelay_ = true; return;
+  case 82: hasM82_ = true; return;
+  case 84: hasM84_ = true; return;
+  case 97: hasM97_ = true; return;
+  case 98: hasM98_ = true; return;
+  case 94:
+  case 95:
+  case 109: // `M95 /37`: an output is switched off
+    skipBlanks();
+    if (peek() == '/' && isDigit(peek(1)))
+      count(TextSignal::CentroidStatement);
+    return;
+  case 200:
+  case 225:
+    skipBlanks();
+    if (peek() == '#' || peek() == '"')
+      count(TextSignal::CentroidStatement);
+    return;
+  default: return;
+  }
+}
+
 /// `F$110`, a setting of GRBL as a value; `F{speed}`, an expression or a name in braces, `X{param.R}`.  `${..}` and
 /// `{{..}}` are for programs that make programs.
 bool LineScanner::scanHobbyMark(char mark) {

@@ -398,32 +398,6 @@ void LineScanner::scanGCode(const Number &number) {
   }
 }
 
-void LineScanner::scanMCode(const Number &number) {
-  switch (number.whole) {
-  case 6: count(TextSignal::ToolChange); return;
-  case 59:
-  case 69: hasRelay_ = true; return;
-  case 82: hasM82_ = true; return;
-  case 84: hasM84_ = true; return;
-  case 97: hasM97_ = true; return;
-  case 98: hasM98_ = true; return;
-  case 94:
-  case 95:
-  case 109: // `M95 /37`: an output is switched off
-    skipBlanks();
-    if (peek() == '/' && isDigit(peek(1)))
-      count(TextSignal::CentroidStatement);
-    return;
-  case 200:
-  case 225:
-    skipBlanks();
-    if (peek() == '#' || peek() == '"')
-      count(TextSignal::CentroidStatement);
-    return;
-  default: return;
-  }
-}
-
 namespace {
 
 /// `-5000(text`: the number of a message and, at once, its text.
