@@ -70,8 +70,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   for (const auto &[size, remark] : sizes) {
     if (diameters.contains(size))
       continue;
-    const auto like =
-        std::ranges::find_if(diameters, [&](const auto &diameter) { return differsInOneDigit(size, diameter.first); });
+    const auto like = std::ranges::find_if(
+        diameters, [&of = size](const auto &diameter) { return differsInOneDigit(of, diameter.first); });
     if (like == diameters.end() || sizes.contains(like->first))
       continue;
     reporter.report({.message = fmt::format("{} differs in one digit from the diameter in the remark",

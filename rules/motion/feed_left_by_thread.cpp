@@ -15,11 +15,10 @@ public:
 
   void read(BlockId block, const Reporter &reporter) {
     const TurningMove move = walk_.read(block);
-    if (hidden_.isIn(block))
-      lead_ = nullptr;
-    else if (cutsThread(block))
+    const bool isHidden = hidden_.isIn(block);
+    if (!isHidden && cutsThread(block))
       lead_ = findWord(context_.tree, block, 'F');
-    else if (findWord(context_.tree, block, 'F') || findWord(context_.tree, block, 'T'))
+    else if (isHidden || findWord(context_.tree, block, 'F') || findWord(context_.tree, block, 'T'))
       lead_ = nullptr;
     else if (lead_ && move == TurningMove::Feed && !walk_.isInContour(block))
       tell(block, reporter);

@@ -214,8 +214,8 @@ std::optional<UnreadText> namedMacroB(const FileContext &context) {
   for (BlockId id(0); id.index() < context.tree.blockCount(); id = id.next()) {
     TextScan scan;
     scanLine(textOf(id.index(), context), scan);
-    const bool isOfKind[] = {scan.count(TextSignal::AngleName) > 0,
-                             scan.count(TextSignal::MacroBranch) + scan.count(TextSignal::NumberedLoop) > 0};
+    const std::array<bool, 2> isOfKind{scan.count(TextSignal::AngleName) > 0,
+                                       scan.count(TextSignal::MacroBranch) + scan.count(TextSignal::NumberedLoop) > 0};
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
       if (isOfKind[kind] && isRead(context.tree.blocks[id]) && counts[kind]++ == 0)
         first[kind] = context.tree.blocks[id].span();
