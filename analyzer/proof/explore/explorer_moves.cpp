@@ -85,7 +85,11 @@ std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Mo
   const auto *entry = isArc && path.state.transformed.term == store_.no() ? words_.find('R') : nullptr;
   if (!entry || !path.says(store_, entry->present.term))
     return std::nullopt;
-  const TermId radius = interpretation_.asCounted(entry->value.number); // a length, like the coordinates
+  // A length like the coordinates; a run does not round it, and is off by less than what it is judged by (a millionth).
+  const auto multiple = interpretation_.increments().of(entry->value.number);
+  const bool isNear = multiple && multiple->error <= smt::Number(1) / smt::Number(1'000'000);
+  const TermId radius = isNear ? interpretation_.asCounted(entry->value.number)
+                               : interpretation_.increments().typedInput(entry->value.number);
   const TermId zero = store_.number(smt::Number(0));
   if (entails_(interpretation_.facts(), path.conditions, store_.less(zero, radius)))
     return geometry::ArcRadius{radius, geometry::ArcLength::Short};

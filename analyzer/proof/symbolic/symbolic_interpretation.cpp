@@ -116,9 +116,10 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
   const WrittenInput &written = written_[variable];
   const auto vacancy = isNumber ? MayBeVacant::No : MayBeVacant::Yes;
   const std::string name = fmt::format("#{}", variable);
-  const Value value = written.step ? numberNamed(name, vacancy) : named(name, vacancy);
-  if (entryValues_.emplace(variable, value).second && written.step)
-    increments_.setStep(value.number, *written.step);
+  const auto step = isNumber ? std::nullopt : written.step; // nothing says that a cell of the control has few digits
+  const Value value = step ? numberNamed(name, vacancy) : named(name, vacancy);
+  if (entryValues_.emplace(variable, value).second && step)
+    increments_.setStep(value.number, *step);
   if (assumesTyped_ && typed_.insert(variable).second) {
     const std::vector<TermId> typed = typedInput(variable, written, value.number);
     facts_.insert(facts_.end(), typed.begin(), typed.end());
@@ -127,7 +128,7 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
   }
   entry_.insert(value.number);
   entry_.insert(value.vacant);
-  return {value.vacant, written.step ? asTyped(value.number) : value.number};
+  return {value.vacant, step ? asTyped(value.number) : value.number};
 }
 
 /// As a literal is held: the nearest double, or what a control with shorter mantissas makes of that.
