@@ -290,7 +290,8 @@ private:
     if (system != GCodeSystem::A && !settler_.namedSystem(*candidate.found.config, settings))
       reasons.push_back(marksOf(system));
     result_.items.push_back({candidate.found.shown, candidate.found.path, *candidate.source, std::move(profile),
-                             settings.choice, std::move(reasons), foreign, !isGuess || candidate.guess.namesControl});
+                             settings.choice, std::move(reasons), foreign, !isGuess || candidate.guess.namesControl,
+                             !isGuess || candidate.guess.hasOwnMarks});
   }
 
   static bool runsForeignRule(const Profile &profile) {

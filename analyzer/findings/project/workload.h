@@ -59,6 +59,7 @@ struct WorkItem {
   std::vector<std::string_view> reasons;
   const ForeignLanguage *foreign; // null: a language that we read
   bool isNamed = false;           // by a person, or by the text: for which control it was written is no guess
+  bool hasMarks = false;          // the same, or this text or another one of the folder has marks of its control
 };
 
 /// The rule that says it of a file in another language.

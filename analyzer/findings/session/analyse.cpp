@@ -102,10 +102,12 @@ std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext 
 FileAnalysis analyseOne(const WorkItem &item, const FileContext &context, const RuleRegistry &rules) {
   FileAnalysis result;
   std::vector<RawFinding> found;
-  if (auto doubt = doubtOf(item, context))
+  if (auto doubt = doubtOf(item, context)) {
     found.push_back(std::move(*doubt)); // and nothing else, as of a file that is refused
-  else
+  } else {
     found = runRules(item.profile->rules, context);
+    doubtErrors(found, item, context);
+  }
   SuppressionResult raw = applySuppressions(std::move(found), context, rules, item.profile->rules);
   const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
   result.findings = findingsOf(std::move(raw), context, *item.profile);

@@ -75,6 +75,7 @@ AnalysisKeys::AnalysisKeys(std::span<const WorkItem> items) {
     writer.text(profile);
     writer.text(item.foreign == nullptr ? std::string_view() : item.foreign->name);
     writer.number(item.isNamed ? 1 : 0);
+    writer.number(item.hasMarks ? 1 : 0);
   }
   addContracts(writer, foldersOf(items));
   run_ = sha256(writer.finish());

@@ -39,6 +39,50 @@ std::string_view describe(ForeignHabit habit) {
   FEEDHOLD_UNREACHABLE("a habit of other languages");
 }
 
+/// Of errors that are listed at the first one; a foreign program has dozens.
+constexpr std::size_t kMostListed = 5;
+
+/// Who writes suppressions has settled how the program is read.
+bool isSettled(const WorkItem &item, const FileContext &context) {
+  return item.isNamed || !findSuppressions(context).empty();
+}
+
+/// Whether another control may well accept what is found.
+bool isOfLanguage(const RuleInfo &rule) {
+  switch (rule.category) {
+  case Category::Syntax:
+  case Category::Structure:
+  case Category::Expression:
+  case Category::Variable:
+  case Category::Word:
+  case Category::Comment: return true;
+  case Category::Alarm:
+  case Category::Call:
+  case Category::Suppression:
+  case Category::Flow:
+  case Category::Motion:
+  case Category::Contract: return false;
+  }
+  FEEDHOLD_UNREACHABLE("a category of rules");
+}
+
+/// The others, and what to do.
+std::vector<std::string> notesOfDoubt(const std::vector<RawFinding *> &errors, const FileContext &context) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 1; i < errors.size() && i <= kMostListed; ++i) {
+    const Diagnostic &other = errors[i]->diagnostic;
+    notes.push_back(fmt::format("also in line {}: {}", context.source.lineOf(other.span.begin), other.message));
+  }
+  if (errors.size() > kMostListed + 1)
+    notes.push_back(fmt::format("{} more blocks are wrong for {}: `--severity info` shows them",
+                                errors.size() - 1 - kMostListed, context.dialect.id));
+  notes.push_back(
+      fmt::format("nothing in the program shows that it is for {0}: name its control with `--dialect` or in "
+                  "feedhold.toml",
+                  context.dialect.id));
+  return notes;
+}
+
 } // namespace
 
 RawFinding refusalOf(const WorkItem &item) {
@@ -55,8 +99,7 @@ RawFinding refusalOf(const WorkItem &item) {
 
 std::optional<RawFinding> doubtOf(const WorkItem &item, const FileContext &context) {
   const RuleInfo *rule = foreignLanguageRule(*item.profile);
-  // Who writes suppressions has settled how the program is read.
-  if (item.isNamed || rule == nullptr || !findSuppressions(context).empty())
+  if (rule == nullptr || isSettled(item, context))
     return std::nullopt;
   const std::optional<UnreadText> text = unreadTextOf(context);
   if (!text)
@@ -73,6 +116,27 @@ std::optional<RawFinding> doubtOf(const WorkItem &item, const FileContext &conte
                  fmt::format("if {0} is right, name it with `--dialect {0}` or in feedhold.toml to see every error",
                              context.dialect.id),
                  "if Feedhold does not read its language, exclude the file"}}};
+}
+
+void doubtErrors(std::vector<RawFinding> &found, const WorkItem &item, const FileContext &context) {
+  if (item.hasMarks || isSettled(item, context))
+    return;
+  std::vector<RawFinding *> errors;
+  for (RawFinding &finding : found)
+    if (finding.severity == Severity::Error && isOfLanguage(*finding.rule))
+      errors.push_back(&finding);
+  if (errors.empty())
+    return;
+  std::vector<std::string> notes = notesOfDoubt(errors, context);
+  Diagnostic &first = errors.front()->diagnostic;
+  first.message += fmt::format(", if the program is for {}", context.dialect.id);
+  std::ranges::move(notes, std::back_inserter(first.notes));
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    errors[i]->severity = Severity::Info;
+  if (errors.size() > 1)
+    for (RawFinding &finding : found)
+      if (finding.severity == Severity::Warning)
+        finding.severity = Severity::Info;
 }
 
 } // namespace feedhold

@@ -20,6 +20,8 @@ bool fitsSeveral(const LanguageGuess &guess) {
                        [best](int score) { return score >= best - kAlike; }) >= kSeveral;
 }
 
+std::size_t kindOf(const Dialect &dialect) { return dialect.grammar.oWords ? 1 : 0; }
+
 int voteOf(const LanguageGuess &file, std::size_t dialect) {
   const int best = *std::max_element(file.scores.begin(), file.scores.end());
   return std::max(file.scores[dialect] - best, -kMostOfOneFile);
@@ -38,6 +40,7 @@ void FolderVote::add(const LanguageGuess &file) {
   }
   if (file.gCodeSystem && file.dialect->machine == MachineKind::Turning)
     gCodeSystems_.insert(*file.gCodeSystem);
+  hasMarks_[kindOf(*file.dialect)] |= file.hasOwnMarks;
   if (file.basis == GuessBasis::Text)
     ++speakers_[file.dialect];
   distinct_ += file.basis == GuessBasis::Text && file.kin == nullptr && !fitsSeveral(file) ? 1U : 0U;
@@ -85,6 +88,7 @@ LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
     guess.reasons = {"most programs of the folder"};
     return guess;
   }
+  guess.hasOwnMarks = own.hasOwnMarks || hasMarks_[kindOf(*own.dialect)];
   if (sums_.empty())
     return guess;
   std::vector<int> others = sums_; // what the program itself says counts once

@@ -4,6 +4,7 @@
 
 #include "language/dialect/registry.h"
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -34,6 +35,7 @@ private:
   std::map<const Dialect *, std::size_t> speakers_; // programs whose text speaks for a dialect
   std::map<std::string_view, std::pair<const ForeignLanguage *, std::size_t>> foreign_; // by name
   std::set<GCodeSystem> gCodeSystems_;
+  std::array<bool, 2> hasMarks_{}; // some program that is read as Macro B, or with o-words, has marks of its own
 };
 
 } // namespace feedhold

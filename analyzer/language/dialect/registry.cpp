@@ -73,11 +73,14 @@ Best<ForeignLanguage> bestForeign(const TextScan &scan, const DialectRegistry &r
   return best;
 }
 
+bool hasAny(const TextScan &scan, std::span<const TextSignal> signals) {
+  return std::ranges::any_of(signals, [&scan](TextSignal signal) { return scan.count(signal) != 0; });
+}
+
 bool hasCodes(const TextScan &scan) {
   constexpr TextSignal kOwn[] = {TextSignal::ProgramNumber, TextSignal::MacroControl, TextSignal::OWord,
                                  TextSignal::MacroAlarm, TextSignal::HashVariable};
-  return scan.codeLines != 0 ||
-         std::any_of(std::begin(kOwn), std::end(kOwn), [&scan](TextSignal signal) { return scan.count(signal) != 0; });
+  return scan.codeLines != 0 || hasAny(scan, kOwn);
 }
 
 bool namesControl(const TextScan &scan) {
@@ -90,7 +93,36 @@ bool namesControl(const TextScan &scan) {
                                    TextSignal::FanucName,
                                    TextSignal::HaasName,
                                    TextSignal::MitsubishiName};
-  return std::any_of(std::begin(kNames), std::end(kNames), [&scan](TextSignal name) { return scan.count(name) != 0; });
+  return hasAny(scan, kNames);
+}
+
+/// Words of Macro B and o-words, `M98 P` and `G65 P` are also in the languages of routers, plasma tables and robots.
+bool hasOwnMarks(const TextScan &scan, const Dialect &dialect) {
+  constexpr TextSignal kOfMacroB[] = {TextSignal::ProgramNumber,
+                                      TextSignal::MacroAlarm,
+                                      TextSignal::FanucLargeVariable,
+                                      TextSignal::FanucParameterRead,
+                                      TextSignal::FanucNamedVariable,
+                                      TextSignal::FanucProgramName,
+                                      TextSignal::FanucOffsetGroup,
+                                      TextSignal::FanucFolderLine,
+                                      TextSignal::FanucEncryption,
+                                      TextSignal::MacroA,
+                                      TextSignal::HaasLocalCall,
+                                      TextSignal::HaasCode,
+                                      TextSignal::HaasVariable,
+                                      TextSignal::HaasSetting,
+                                      TextSignal::HaasTimer,
+                                      TextSignal::HaasConditionalReturn,
+                                      TextSignal::MitsubishiVariable,
+                                      TextSignal::MitsubishiOffsetGroup,
+                                      TextSignal::MitsubishiToolOffset,
+                                      TextSignal::MitsubishiParameterRead,
+                                      TextSignal::EiaFile,
+                                      TextSignal::TurningCycle,
+                                      TextSignal::TurretTool};
+  constexpr TextSignal kOfNgc[] = {TextSignal::NgcFile};
+  return dialect.grammar.oWords ? hasAny(scan, kOfNgc) : hasAny(scan, kOfMacroB);
 }
 
 /// Languages with names of their own choosing have many lines that only partly speak to us.
@@ -131,6 +163,7 @@ LanguageGuess guessLanguage(std::string_view text, std::string_view path, const 
   } else if (scan.programLines > scan.otherLines) {
     guess.dialect = likeliestDialect(scores, registry);
     guess.looksLikeProgram = true;
+    guess.hasOwnMarks = guess.namesControl || hasOwnMarks(scan, *guess.dialect);
     guess.reasons = reasonsOf(scan, guess.dialect->hints);
     guess.basis = prefers(scores, guess.dialect, registry) ? GuessBasis::Text : GuessBasis::Nothing;
     guess.scores = std::move(scores);

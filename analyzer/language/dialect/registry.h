@@ -32,6 +32,7 @@ struct LanguageGuess {
   bool hasJumps = false;                    // `IF`, `GOTO`, `WHILE`, `DO` without o-words
   bool hasCodes = false;                    // holds what only NC programs hold, not just words such as `T1 X5`
   bool namesControl = false;              // a remark, the file or its folder names the maker of a control that is read
+  bool hasOwnMarks = false;               // of the dialect: a name, or what hardly any other language has
   GuessBasis basis = GuessBasis::Nothing; // Nothing: the text fits several controls alike
   std::vector<std::string_view> reasons;  // the signals that decided, strongest first
   const ForeignLanguage *kin = nullptr;   // of a program that is read: a language that it may as well be written in
