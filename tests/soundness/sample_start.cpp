@@ -57,7 +57,7 @@ EntryValues randomEntryIn(NumberModel numbers, const LoadedSample &machine, Rand
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
     if (findVariable(machine.dialect(), local))
       given.set(local, value());
-  for (const std::string_view result : {"_value", "_value_returned"}) // before any call has returned one
+  for (const std::string_view result : {kReturnedValue, kIsValueReturned}) // before any call has returned one
     if (const auto variable = machine.set.variableNamed(result))
       given.set(*variable, ConcreteValue::of(0));
   for (const std::uint32_t common : {100, 101, 102, 105, 110, 120, 130, 500, 501})

@@ -79,6 +79,7 @@ public:
   Value asNumber(const Value &value) const;
   Truth isVacant(const Value &value) const { return truthOfOutcomes(value.mayBeVacant(), value.mayBeNumber()); }
   std::optional<double> constantOf(const Value &value) const;
+  bool isFixed(const Value &value) const { return constantOf(value).has_value(); }
   Value select(Truth truth, const Value &first, const Value &second) const;
   Value either(const Value &first, const Value &second) const;
 
@@ -122,6 +123,7 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable) const;
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
+  Truth isReadFromOutside(std::uint32_t) const { return Truth::Maybe; }
   Value notFollowed(std::uint32_t) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);

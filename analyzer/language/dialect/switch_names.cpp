@@ -8,7 +8,7 @@ namespace feedhold {
 namespace {
 
 constexpr std::array kSwitchNames = {
-    SwitchName{"dpi", &Switches::dpi},
+    SwitchName{.name = "dpi", .which = &Switches::dpi, .isOneParameter = true},
     SwitchName{"ad2", &Switches::ad2},
     SwitchName{"cir", &Switches::cir},
     SwitchName{"m3b", &Switches::m3b},

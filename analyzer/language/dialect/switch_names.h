@@ -13,6 +13,8 @@ struct SwitchName {
   std::string_view name;
   Switch Switches::*which;
   bool usual = false; // what a run takes where it is not known
+  /// One parameter of the control, which decides all its questions alike; else a control may answer them differently.
+  bool isOneParameter = false;
 };
 std::span<const SwitchName> switchNames();
 

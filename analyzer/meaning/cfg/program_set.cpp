@@ -281,6 +281,10 @@ bool ProgramSet::usesName(std::string_view canonical) const {
   return std::binary_search(names_.begin(), names_.end(), canonical);
 }
 
+std::optional<std::uint32_t> ProgramSet::returnedValue() const {
+  return usesName(kReturnedValue) || usesName(kIsValueReturned) ? variableNamed(kReturnedValue) : std::nullopt;
+}
+
 std::string ProgramSet::nameOfVariable(std::uint32_t variable) const {
   if (const PredefinedName *name = naming_ ? findPredefinedName(*naming_, variable) : nullptr)
     return "#<" + std::string(name->row.name) + ">";

@@ -61,6 +61,9 @@ struct UnnumberedUses : UseCounts {
 /// variable is one 32-bit number.
 inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
 
+/// Names of what calls return, and of whether they have returned something.
+inline constexpr std::string_view kReturnedValue = "_value", kIsValueReturned = "_value_returned";
+
 class ProgramSet {
 public:
   /// Lowers the files; the call graph is over the same files.
@@ -113,6 +116,8 @@ public:
   std::optional<std::uint32_t> variableNamed(std::string_view canonical) const;
   /// Some program writes the name, which is in its canonical spelling.
   bool usesName(std::string_view canonical) const;
+  /// What the last program that was called has returned; absent where no program asks for it.
+  std::optional<std::uint32_t> returnedValue() const;
   /// `#<depth>` for numbers from kFirstNamedVariable on and for names of the control, else `#101`.
   std::string nameOfVariable(std::uint32_t variable) const;
   /// A name that the machine gives a value, or does not, and that may change at any time (`#<_hal[probe.in]>`).

@@ -193,6 +193,8 @@ ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
 }
 
 ConcreteValue ConcreteInterpretation::notFollowed(std::uint32_t variable) {
+  if (isPredefinedName(variable) && isReadFromOutside(variable))
+    return volatileRead(variable);
   if (const Value *value = given_.find(variable))
     return asNumber(*value);
   notes_.push_back("a value of the control that is not followed");

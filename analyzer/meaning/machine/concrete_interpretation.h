@@ -103,6 +103,7 @@ public:
   Value asNumber(const Value &value) const { return Value::of(value.vacant ? 0 : value.number); }
   bool isVacant(const Value &value) const { return value.vacant; }
   std::optional<double> constantOf(const Value &value) const;
+  bool isFixed(const Value &) const { return true; }
   Value select(bool truth, const Value &first, const Value &second) const { return truth ? first : second; }
   Value either(const Value &first, const Value &) const { return first; }
 
@@ -153,6 +154,7 @@ public:
   std::span<const GivenVariables::Entry> allGiven() const { return given_.entries(); }
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
+  bool isReadFromOutside(std::uint32_t variable) const { return source_ || given_.readings.find(variable); }
   /// What is given, or 0: one of many things that may be there.
   Value notFollowed(std::uint32_t variable);
   Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number

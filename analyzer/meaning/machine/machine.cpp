@@ -28,7 +28,10 @@ public:
       state_.codes[group] = code;
     putInForce(options.variables.start, state_);
     frames_.push_back({.callee = entry, .call = at_});
-    for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
+    for (const auto &[variable, script] : options.variables.readings.entries()) // what is read is there
+      if (programs.isInputName(variable) && !options.variables.find(variable))
+        state_.variables.set(variable, ConcreteValue::of(script.front()));
+    for (const std::string_view name : {kReturnedValue, kIsValueReturned}) // before any call has returned one
       if (const auto variable = programs.usesName(name) ? programs.variableNamed(name) : std::nullopt;
           variable && !state_.variables.find(*variable))
         state_.variables.set(*variable, ConcreteValue::of(0));
@@ -350,6 +353,8 @@ private:
         options_.missing == MissingPrograms::Return) {
       const std::string name = nameOfCallee(modal);
       result_.skipped.insert(name.empty() ? std::string(kComputedCallee) : name);
+      auto ctx = context();
+      keepReturnedByOther(ctx);
       return false;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {

@@ -43,6 +43,8 @@ concept HasValues = requires(R interpretation, const typename R::Value value, co
   { interpretation.isVacant(value) } -> std::same_as<typename R::Truth>;
   /// The number that it must be; absent when it may be several, or vacant.
   { interpretation.constantOf(value) } -> std::same_as<std::optional<double>>;
+  /// Settings of the machine and modes choose it among literals.
+  { interpretation.isFixed(value) } -> std::same_as<bool>;
   { interpretation.select(truth, value, value) } -> std::same_as<typename R::Value>;
   /// The control's settings are not known: one of the two.
   { interpretation.either(value, value) } -> std::same_as<typename R::Value>;
@@ -119,6 +121,8 @@ concept HasVariables = requires(R interpretation, const typename R::Value value,
   { interpretation.unwritten(state, variable) } -> std::same_as<typename R::Value>;
   /// A cell that may change between two reads: an input, a clock.
   { interpretation.volatileRead(variable) } -> std::same_as<typename R::Value>;
+  /// Whether reads of the variable are given from outside, where nobody else says what it holds.
+  { interpretation.isReadFromOutside(variable) } -> std::same_as<typename R::Truth>;
   /// A cell of the control that nothing here keeps up with: any number.
   { interpretation.notFollowed(variable) } -> std::same_as<typename R::Value>;
   /// A variable whose number is not one constant.

@@ -29,10 +29,12 @@ public:
     const bool isOther = interpretation_.mayBe(otherGeometry(context_));
     const std::optional<Plane> plane = planeOf(context_);
     if (isOther || !plane) { // only the end point is known
-      if (isOther)
+      if (isOther) {
         alarmsOfOtherGeometry(follows);
-      else if (interpretation_.mayBe(follows))
+      } else if (interpretation_.mayBe(follows)) {
+        distance_ = distanceOf(context_, words_);
         alarmsInAnyPlane(start, follows);
+      }
       if (context_.certain(arc))
         tell(context_, MoveKind::Unmodelled, start);
       return;
@@ -141,6 +143,16 @@ private:
     const auto code = group ? context_.modes.powerOn(*group) : std::nullopt;
     return code && context_.modes.group(*group).codes[*code]->action == plane;
   }
+  /// Literals say where the arc ends and how large it is: then it is told of any plane at no cost.
+  bool isFixed(const Plane &plane, const Point &start) {
+    const auto [a, b] = chordOf(plane, start);
+    const auto isFixedWord = [&](char letter) {
+      const auto *entry = words_.find(letter);
+      return !entry || interpretation_.isFixed(entry->value);
+    };
+    return interpretation_.isFixed(a) && interpretation_.isFixed(b) &&
+           std::ranges::all_of(std::string_view("RIJK"), isFixedWord);
+  }
   /// In whichever plane is in force: one of the codes of their group always is.
   void alarmsInAnyPlane(const Point &start, Truth follows) {
     struct Case {
@@ -151,8 +163,8 @@ private:
     for (const auto &[action, plane] : kPlanes)
       if (const Truth inForce = context_.inForce(ModalKind::Plane, {action}, interpretation_.truth(false));
           interpretation_.mayBe(inForce))
-        cases.push_back({inForce, isUsual(action) ? alarmsOf(circleIn(plane, start), start)
-                                                  : someAlarmsOf(circleIn(plane, start))});
+        cases.push_back({inForce, isUsual(action) || isFixed(plane, start) ? alarmsOf(circleIn(plane, start), start)
+                                                                           : someAlarmsOf(circleIn(plane, start))});
     const Truth other = inOtherPlane();
     const bool areAll = !cases.empty() && !interpretation_.mayBe(other);
     const auto inCase = [&](Truth Alarms::*alarm) {

@@ -101,6 +101,10 @@ inline bool takesIncrement(const AddressFormat &format, char address) {
          (format.kind == AddressKind::Flexible && address != 'P');
 }
 
+/// Coordinates, centres and radii: one parameter says of all of them what a number without a point is (3401#0 of FANUC,
+/// #1078 of Mitsubishi, Setting 162 of Haas).  Of other words (Q, E, F) manuals differ.
+inline bool isPlace(char address) { return std::string_view("XYZUVWABCIJKR").find(address) != std::string_view::npos; }
+
 /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
 /// `value`: of the expression.
 template <ValueAlgebra R>
@@ -319,9 +323,11 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
     return context.interpretation.literal(
         Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
   });
-  if (context.dialect().switches.dpi == Switch::Off)
-    return inIncrements;
-  return context.interpretation.either(inIncrements, context.interpretation.literal(literal));
+  const auto asWritten = context.interpretation.literal(literal);
+  if (detail::isPlace(address))
+    return context.interpretation.select(context.isOn(&Switches::dpi), asWritten, inIncrements);
+  return context.dialect().switches.dpi == Switch::Off ? inIncrements
+                                                       : context.interpretation.either(inIncrements, asWritten);
 }
 
 template <ValueAlgebra R>

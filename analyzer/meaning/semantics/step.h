@@ -121,8 +121,8 @@ void setNamed(StepContext<R> &context, std::string_view name, const typename R::
 template <ValueAlgebra R> void keepReturned(StepContext<R> &context, std::optional<ExpressionId> expression) {
   R &interpretation = context.interpretation;
   const auto value = expression ? interpretation.asNumber(evaluate(context, *expression)) : context.zero();
-  setNamed(context, "_value", value);
-  setNamed(context, "_value_returned", interpretation.number(expression ? 1 : 0));
+  setNamed(context, kReturnedValue, value);
+  setNamed(context, kIsValueReturned, interpretation.number(expression ? 1 : 0));
 }
 
 template <ValueAlgebra R>
@@ -183,6 +183,19 @@ template <ValueAlgebra R> void havocVariables(StepContext<R> &context, const Hav
 }
 
 } // namespace detail
+
+/// A program that is not followed has returned nothing, or a number that is read from outside.
+template <ValueAlgebra R> void keepReturnedByOther(StepContext<R> &context) {
+  R &interpretation = context.interpretation;
+  const auto variable = context.programs.returnedValue();
+  if (!variable)
+    return;
+  const auto isReturned = interpretation.isReadFromOutside(*variable);
+  const auto read = interpretation.volatileRead(*variable);
+  detail::setNamed(context, kReturnedValue, interpretation.select(isReturned, read, context.zero()));
+  detail::setNamed(context, kIsValueReturned,
+                   interpretation.select(isReturned, interpretation.number(1), context.zero()));
+}
 
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
   R &interpretation = context.interpretation;

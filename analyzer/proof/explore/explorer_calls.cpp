@@ -109,13 +109,17 @@ std::vector<Path> Explorer::missingCall(Path path, const CallRequest<SymbolicInt
                                         std::optional<std::size_t> modal, const std::string &name) {
   const NodeId next = nodeOf(path).next;
   recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, fmt::format("{} was not supplied", name), name});
-  if (options_.missingChangeNothing)
+  if (options_.missingChangeNothing) {
+    auto context = contextOf(path);
+    keepReturnedByOther(context);
     return {to(std::move(path), next)};
+  }
   loseCutter(path, "cutter compensation through a call that is not followed");
   recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);
   const Condition unknown = path.state.modalCallsUnknown;
   havocCall(context, request, "a program that was not supplied");
+  keepReturnedByOther(context);
   path.state.modalCallsUnknown = unknown;
   if (!takeStops(path))
     return {};

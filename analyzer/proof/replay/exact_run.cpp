@@ -36,6 +36,9 @@ void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &
     values.emplace(variable, value.vacant
                                  ? interpretation.vacant()
                                  : SymbolicValue{store.no(), store.number(inputNumber(interpretation, value.number))});
+  for (const auto &[variable, script] : given.readings.entries()) // what is read is there
+    if (variable >= kFirstNamedVariable)
+      values.try_emplace(variable, store.no(), store.number(inputNumber(interpretation, script.front())));
   interpretation.startFrom(std::move(values));
   if (given.readings.entries().empty())
     return;

@@ -208,9 +208,17 @@ void WitnessSearch::addReadings(GivenVariables &given, std::mt19937 &random, std
   const std::vector<double> pool = plainNumbers();
   for (const std::uint32_t variable : inputsRead()) {
     const VariableRange *range = findVariable(*programs_.file(entry_.file).dialect, variable);
+    std::vector<double> script(1 + random() % most);
+    if (programs_.isInputName(variable) && !given.find(variable))
+      continue; // the machine does not give it
+    if (readsAnything(variable)) {
+      for (double &reading : script)
+        reading = pool[random() % pool.size()];
+      given.readings.set(variable, std::move(script));
+      continue;
+    }
     if (!range)
       continue;
-    std::vector<double> script(1 + random() % most);
     for (double &reading : script)
       reading = range->role == VariableRole::Signal ? static_cast<double>(random() % 2)
                                                     : std::fabs(pool[random() % pool.size()]);

@@ -154,20 +154,25 @@ bool WitnessSearch::isAllowed(const GivenVariables &given) const {
   return std::ranges::all_of(demands_, [&](smt::TermId demand) { return evaluation.is(demand, true); });
 }
 
+bool WitnessSearch::readsAnything(std::uint32_t variable) const {
+  return programs_.isInputName(variable) || isPredefinedName(variable);
+}
+
 /// What is said of an input holds of each reading.
 bool WitnessSearch::allowed(const GivenVariables &given) const {
   const Dialect &dialect = *programs_.file(entry_.file).dialect;
   GivenVariables first = given;
   for (const auto &[variable, script] : given.readings.entries()) {
     const VariableRange *range = findVariable(dialect, variable);
-    if (!range || !mayRead(*range, script))
+    if (!readsAnything(variable) && (!range || !mayRead(*range, script)))
       return false;
-    first.set(variable, ConcreteValue::of(script.front()));
+    if (variable != programs_.returnedValue()) // of which nothing is said before a call
+      first.set(variable, ConcreteValue::of(script.front()));
   }
   if (!isAllowed(first))
     return false;
   for (const auto &[variable, script] : given.readings.entries()) {
-    if (!interpretation_.entryValues().contains(variable))
+    if (!interpretation_.entryValues().contains(variable) || variable == programs_.returnedValue())
       continue;
     for (const double reading : std::set<double>(script.begin(), script.end())) {
       GivenVariables other = first;
@@ -393,6 +398,8 @@ InputReadings WitnessSearch::readingsOf(const smt::Model &model, const GivenVari
   RunOptions options = runOptions(given);
   options.fuel = kSampleFuel;
   options.inputs = [&](Place place, std::uint32_t variable) {
+    if (programs_.isInputName(variable) && !given.find(variable)) // the machine does not give it
+      return 0.0;
     const std::vector<double> *before = readings.find(variable);
     std::vector<double> script = before ? *before : std::vector<double>();
     std::deque<double> &next = said[{place, variable}];

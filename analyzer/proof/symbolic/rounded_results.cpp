@@ -2,6 +2,7 @@
 // least increment (docs/arithmetic.md).
 #include "base/support/mantissa32.h"
 #include "proof/smt/exact_angles.h"
+#include "proof/symbolic/literal_cases.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
 #include <cmath>
@@ -70,11 +71,41 @@ SymbolicValue SymbolicInterpretation::result(Operation operation, TermId exact, 
   return of(exact);
 }
 
+template <typename Compute>
+std::optional<SymbolicValue> SymbolicInterpretation::inEachCase(const Value &a, const Value &b,
+                                                                const Compute &compute) {
+  const auto cases = literalCases(store_, a.number, b.number);
+  if (!cases)
+    return std::nullopt;
+  const auto in = [&](const std::array<TermId, 2> &numbers) { return compute(of(numbers[0]), of(numbers[1])); };
+  const Value ifSo = in(cases->ifSo);
+  return select({cases->condition}, ifSo, in(cases->ifNot));
+}
+
+SymbolicValue SymbolicInterpretation::add(const Value &a, const Value &b) {
+  if (const auto value = inEachCase(a, b, [&](const Value &x, const Value &y) { return add(x, y); }))
+    return *value;
+  return result(Operation::Sum, store_.add(a.number, b.number), a, b);
+}
+SymbolicValue SymbolicInterpretation::subtract(const Value &a, const Value &b) {
+  if (const auto value = inEachCase(a, b, [&](const Value &x, const Value &y) { return subtract(x, y); }))
+    return *value;
+  return result(Operation::Sum, store_.subtract(a.number, b.number), a, b);
+}
+SymbolicValue SymbolicInterpretation::negate(const Value &a) {
+  if (const auto value = inEachCase(a, a, [&](const Value &x, const Value &) { return negate(x); }))
+    return *value;
+  return of(store_.negate(a.number));
+}
 SymbolicValue SymbolicInterpretation::multiply(const Value &a, const Value &b) {
+  if (const auto value = inEachCase(a, b, [&](const Value &x, const Value &y) { return multiply(x, y); }))
+    return *value;
   const TermId exact = store_.multiply(a.number, b.number);
   return isMultipleByPowerOfTwo(a) || isMultipleByPowerOfTwo(b) ? of(exact) : result(Operation::Product, exact, a, b);
 }
 SymbolicValue SymbolicInterpretation::divide(const Value &a, const Value &b) {
+  if (const auto value = inEachCase(a, b, [&](const Value &x, const Value &y) { return divide(x, y); }))
+    return *value;
   const TermId exact = store_.divide(a.number, b.number);
   return isMultipleByPowerOfTwo(b) ? of(exact) : result(Operation::Quotient, exact, a, b);
 }
@@ -178,6 +209,8 @@ SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exa
 /// nearest keeps its size with the other sign: of a number and its negation one word is made, of which that is the
 /// negation.
 SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
+  if (const auto word = inEachCase(value, value, [&](const Value &x, const Value &) { return roundedWord(x, step); }))
+    return *word;
   if (const auto constant = constantOf(value)) {
     const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
     return number(std::round(*constant * steps) / steps);

@@ -1,5 +1,7 @@
 #include "proof/symbolic/symbolic_interpretation.h"
 
+#include "proof/symbolic/literal_cases.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -73,8 +75,12 @@ Condition SymbolicInterpretation::answer(ControlQuestion question) {
 std::string nameOfSetting(SwitchId id) { return fmt::format("{}{}:", kUnknownSetting, switchNames()[id].name); }
 
 Condition SymbolicInterpretation::setting(SwitchId id) {
-  if (!takesUsual_)
+  if (!takesUsual_) {
+    const auto known = std::ranges::find(askedSettings_, id, [](const auto &each) { return each.first; });
+    if (known != askedSettings_.end() && switchNames()[id].isOneParameter)
+      return {known->second};
     return {askedSettings_.emplace_back(id, fresh(nameOfSetting(id), Sort::Bool)).second};
+  }
   const auto said = std::ranges::find(settings_, id, [](const auto &each) { return each.first; });
   return truth(said == settings_.end() ? switchNames()[id].usual : said->second);
 }
@@ -197,6 +203,11 @@ std::optional<double> SymbolicInterpretation::constantOf(const Value &value) con
   return Number::fromDouble(nearest) == exact ? std::optional(nearest) : std::nullopt;
 }
 
+bool SymbolicInterpretation::isFixed(const Value &value) const {
+  return std::ranges::none_of(store_.variablesOf(value.number),
+                              [&](TermId variable) { return store_[variable].sort == Sort::Real; });
+}
+
 SymbolicValue SymbolicInterpretation::select(Truth truth, const Value &first, const Value &second) {
   return {store_.ite(truth.term, first.vacant, second.vacant), store_.ite(truth.term, first.number, second.number)};
 }
@@ -290,8 +301,11 @@ SymbolicValue SymbolicInterpretation::roundTo(const Value &value, Decimal step) 
 }
 
 SymbolicValue SymbolicInterpretation::function(FunctionKind kind, const Value &argument) {
-  if (kind == FunctionKind::Abs)
+  if (kind == FunctionKind::Abs) {
+    if (const auto cases = literalCases(store_, argument.number, argument.number))
+      return select({cases->condition}, function(kind, of(cases->ifSo[0])), function(kind, of(cases->ifNot[0])));
     return of(isNeverNegative(argument.number) ? argument.number : store_.absolute(argument.number));
+  }
   const auto function = functionOf(kind);
   return function ? resultOf(kind, store_.apply(*function, argument.number), argument) : anyNumber();
 }
@@ -323,6 +337,13 @@ Condition SymbolicInterpretation::equal(const Value &a, const Value &b) {
 }
 
 Condition SymbolicInterpretation::compare(Relation relation, const Value &a, const Value &b) {
+  if (const auto cases = literalCases(store_, a.number, b.number)) {
+    const auto in = [&](const std::array<TermId, 2> &numbers) {
+      return compare(relation, of(numbers[0]), of(numbers[1])).term;
+    };
+    const TermId ifSo = in(cases->ifSo);
+    return {store_.ite(cases->condition, ifSo, in(cases->ifNot))};
+  }
   const auto [left, right] = increments_.typedPair(a.number, b.number).value_or(std::pair(a.number, b.number));
   switch (relation) {
   case Relation::Equal: return equal(a, b);

@@ -220,10 +220,13 @@ public:
   Value vacant();
   Value anything() { return freshValue(MayBeVacant::Yes); }
   Value anyNumber() { return freshValue(MayBeVacant::No); }
-  Value notFollowed(std::uint32_t) { return anyNumber(); }
+  Value notFollowed(std::uint32_t variable) {
+    return isPredefinedName(variable) ? volatileRead(variable) : anyNumber();
+  }
   Value asNumber(const Value &value) const { return {store_.no(), value.number}; }
   Truth isVacant(const Value &value) const { return {value.vacant}; }
   std::optional<double> constantOf(const Value &value) const;
+  bool isFixed(const Value &value) const;
   Value select(Truth truth, const Value &first, const Value &second);
   Value either(const Value &first, const Value &second) {
     return takesUsual_ ? first : select(unknownTruth(), first, second);
@@ -231,13 +234,11 @@ public:
   Value between(const Value &start, const Value &end);
 
   // ---- arithmetic ----
-  Value add(const Value &a, const Value &b) { return result(Operation::Sum, store_.add(a.number, b.number), a, b); }
-  Value subtract(const Value &a, const Value &b) {
-    return result(Operation::Sum, store_.subtract(a.number, b.number), a, b);
-  }
+  Value add(const Value &a, const Value &b);
+  Value subtract(const Value &a, const Value &b);
   Value multiply(const Value &a, const Value &b);
   Value divide(const Value &a, const Value &b);
-  Value negate(const Value &a) { return of(store_.negate(a.number)); }
+  Value negate(const Value &a);
   Value remainder(const Value &a, const Value &b);
   Value fix(const Value &a);
   Value fup(const Value &a);
@@ -274,6 +275,9 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable);
   Value volatileRead(std::uint32_t variable);
+  Truth isReadFromOutside(std::uint32_t variable) {
+    return readings_ ? truth(readings_->contains(variable)) : unknownTruth();
+  }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void havocVariables(State &state, std::uint32_t first, std::uint32_t last);
@@ -296,6 +300,8 @@ public:
 
 private:
   Value of(smt::TermId number);
+  /// The operation on two numbers in the cases of one condition; absent where they are not in such cases.
+  template <typename Compute> std::optional<Value> inEachCase(const Value &a, const Value &b, const Compute &compute);
   void tieToCode(smt::TermId number, ModalCode code, const ModalTable &modes, std::uint8_t group);
   enum class Operation : std::uint8_t { Sum, Product, Quotient };
   Value result(Operation operation, smt::TermId exact, const Value &a, const Value &b);

@@ -86,7 +86,8 @@ std::optional<Error> addReadings(const std::string &text, const Project &program
     return Error{fmt::format("--input: `{}` is not of the form #1000=0,0,1", text)};
   const std::string_view name = trimmed(std::string_view(text).substr(0, equals));
   const auto variable = variableFrom(*programs.set, name);
-  if (!variable || *variable >= kFirstNamedVariable || !isInput(programs.dialect(), *variable))
+  const bool isNamed = variable && (programs.set->isInputName(*variable) || isPredefinedName(*variable));
+  if (!variable || (!isNamed && (*variable >= kFirstNamedVariable || !isInput(programs.dialect(), *variable))))
     return Error{
         fmt::format("--input: `{}` is not an input or a clock of this control; use --var to set any variable", name)};
   given.readings.set(*variable, std::move(script));
