@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kFewRead = 64;   // variables: each of them is a case of what is read
 constexpr std::uint32_t kFewWritten = 4; // each of them becomes a case of its own
 constexpr int kMostChanges = 6;          // that are looked behind for what a variable holds
+constexpr int kMostPassed = 64;          // changes of other variables, that are passed over on the way
 constexpr std::uint32_t kNoEnd = 0xffffffff;
 
 bool meets(VariableSpan a, VariableSpan b) { return a.first <= b.last && b.first <= a.last; }
@@ -69,13 +70,17 @@ SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_
 
 /// What a variable holds that states with this token do not keep.
 SymbolicValue SymbolicInterpretation::regionCell(TermId token, std::uint32_t variable, int depth) {
-  const auto known = regionChanges_.find(token);
+  auto known = regionChanges_.find(token);
+  for (int passed = 0; known != regionChanges_.end() && !isIn(known->second.span, variable); ++passed) {
+    if (passed == kMostPassed)
+      return anyCell(token, variable);
+    token = known->second.before;
+    known = regionChanges_.find(token);
+  }
   if (token == store_.no())
     return atEntry(variable);
   if (known != regionChanges_.end() && depth < kMostChanges) {
     const RegionChange &change = known->second;
-    if (!isIn(change.span, variable))
-      return regionCell(change.before, variable, depth + 1);
     const auto old = [&] {
       const auto held = std::ranges::find(change.held, variable, &Cells::value_type::first);
       return held == change.held.end() ? regionCell(change.before, variable, depth + 1) : held->second;
