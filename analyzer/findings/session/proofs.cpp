@@ -73,7 +73,7 @@ void proveAnew(const Job &job, const prove::ProveOptions &options) {
   prove::ProveOptions own = options;
   own.steps = stepsFor(options.steps, project.file(FileId(0)).model.programs.size());
   if (!project.file(FileId(0)).contracts.of(program)) {
-    own.steps /= kShareWithoutContract;
+    own.steps = std::min(own.steps, options.steps / kShareWithoutContract);
     own.budget.z3 /= kShareOfZ3WithoutContract;
   }
   own.contractsOf = project.contracts();

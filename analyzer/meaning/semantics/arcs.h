@@ -48,10 +48,6 @@ public:
   }
 
 private:
-  static constexpr std::array kPlanes = {std::pair(CodeAction::PlaneXY, kPlaneXY),
-                                         std::pair(CodeAction::PlaneZX, kPlaneZX),
-                                         std::pair(CodeAction::PlaneYZ, kPlaneYZ)};
-
   /// The circle that the words of the block describe in one plane.
   struct Circle {
     Plane plane;
@@ -165,7 +161,7 @@ private:
           interpretation_.mayBe(inForce))
         cases.push_back({inForce, isUsual(action) || isFixed(plane, start) ? alarmsOf(circleIn(plane, start), start)
                                                                            : someAlarmsOf(circleIn(plane, start))});
-    const Truth other = inOtherPlane();
+    const Truth other = inOtherPlane(context_);
     const bool areAll = !cases.empty() && !interpretation_.mayBe(other);
     const auto inCase = [&](Truth Alarms::*alarm) {
       Truth inSome = interpretation_.truth(false);
@@ -181,18 +177,6 @@ private:
           follows);
     if (interpretation_.mayBe(other))
       alarmsOfOtherGeometry(interpretation_.both(follows, other));
-  }
-  /// A code of their group that is none of the three planes: of axes beside X, Y and Z, on a cylinder, a tilted one.
-  Truth inOtherPlane() {
-    const auto group = context_.modes.groupOf(ModalKind::Plane);
-    if (!group)
-      return interpretation_.truth(false);
-    const auto &codes = context_.modes.group(*group).codes;
-    CodeMask others = 0;
-    for (std::size_t i = 0; i < codes.size(); ++i)
-      if (std::ranges::none_of(kPlanes, [&](const auto &plane) { return plane.first == codes[i]->action; }))
-        others |= CodeMask{1} << i;
-    return interpretation_.isOneOf(state_.codes[*group], others);
   }
   /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
   /// parameter of most, and one that is accepted makes half a circle.  Controls count increments: what doubles add to

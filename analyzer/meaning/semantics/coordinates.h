@@ -82,6 +82,12 @@ template <ValueAlgebra R> typename R::Truth otherGeometry(StepContext<R> &contex
 /// The plane in force; absent when it can be several.
 template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context);
 
+inline constexpr std::array kPlanes = {std::pair(CodeAction::PlaneXY, kPlaneXY),
+                                       std::pair(CodeAction::PlaneZX, kPlaneZX),
+                                       std::pair(CodeAction::PlaneYZ, kPlaneYZ)};
+/// A code of their group that is none of the three planes: of axes beside X, Y and Z, on a cylinder, a tilted one.
+template <ValueAlgebra R> typename R::Truth inOtherPlane(const StepContext<R> &context);
+
 // ---- implementation -----------------------------------------------------------------------------------------------
 
 namespace detail {
@@ -383,6 +389,18 @@ template <ValueAlgebra R> CircleMapping<R> circleMappingOf(StepContext<R> &conte
   const auto first = size(plane.first);
   return {interpretation.compare(Relation::Equal, first, size(plane.second)),
           detail::differ(context, isReversed(context, plane.first), isReversed(context, plane.second)), first};
+}
+
+template <ValueAlgebra R> typename R::Truth inOtherPlane(const StepContext<R> &context) {
+  const auto group = context.modes.groupOf(ModalKind::Plane);
+  if (!group)
+    return context.interpretation.truth(false);
+  const auto &codes = context.modes.group(*group).codes;
+  CodeMask others = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (std::ranges::none_of(kPlanes, [&](const auto &plane) { return plane.first == codes[i]->action; }))
+      others |= CodeMask{1} << i;
+  return context.interpretation.isOneOf(context.state.codes[*group], others);
 }
 
 template <ValueAlgebra R> typename R::Truth otherGeometry(StepContext<R> &context) {

@@ -393,15 +393,20 @@ namespace detail {
 /// Whether the words of the block lack the depth, in whichever plane is in force.
 template <ValueAlgebra R> typename R::Truth lacksDepth(const StepContext<R> &context, const ExecutedWords<R> &words) {
   R &interpretation = context.interpretation;
-  const auto hasIn = [&](CodeAction plane, char normal) {
-    return interpretation.both(context.inForce(ModalKind::Plane, {plane}, interpretation.truth(false)),
-                               words.present(interpretation, normal));
+  const auto lacks = [&](Axis normal) {
+    return interpretation.negation(words.present(interpretation, letterOf(normal)));
   };
-  const auto inPlane = context.either(hasIn(CodeAction::PlaneXY, 'Z'),
-                                      context.either(hasIn(CodeAction::PlaneZX, 'Y'), hasIn(CodeAction::PlaneYZ, 'X')));
+  auto inPlane = interpretation.truth(false);
+  auto inSome = interpretation.truth(false);
+  for (const auto &[action, plane] : kPlanes) {
+    const auto inForce = context.inForce(ModalKind::Plane, {action}, interpretation.truth(false));
+    inPlane = context.either(inPlane, interpretation.both(inForce, lacks(plane.normal)));
+    inSome = context.either(inSome, lacks(plane.normal));
+  }
+  inPlane = context.either(inPlane, interpretation.both(inOtherPlane(context), inSome));
   const auto byPlane = context.isOn(&Switches::fxy);
-  const auto alongZ = interpretation.both(interpretation.negation(byPlane), words.present(interpretation, 'Z'));
-  return interpretation.negation(context.either(interpretation.both(byPlane, inPlane), alongZ));
+  const auto alongZ = interpretation.both(interpretation.negation(byPlane), lacks(Axis::Z));
+  return context.either(interpretation.both(byPlane, inPlane), alongZ);
 }
 
 /// Of the levels it is known whether they were given.
