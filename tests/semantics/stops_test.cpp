@@ -32,7 +32,7 @@ struct Stop {
 const std::vector<Stop> kStops = {
     STOP(ArcTooShort, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.R1.F5.\nM30\n"),
     STOP(ArcTooShort, "haas-ngc", "O1\nG0G90G17X0Y0\nG3X10.R-4.F5.\nM30\n"),
-    STOP(ArcTooShort, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.R4.98F5.\nM30\n", &Switches::shortArcStops),
+    STOP(ArcTooShort, "fanuc-30i", "O1\nG0G90G17G21X0Y0\nG2X10.R4.98F5.\nM30\n", &Switches::shortArcStops),
     STOP(ArcWithoutLength, "linuxcnc", "g21 g90 g17 g0 x0 y0\ng2 x0 y0 r5 f10\nm2\n"),
     STOP(ArcWithoutLength, "mitsubishi-m700", "O1\nG0G90G17X0Y0\nG2X0R5.F5.\nM30\n", &Switches::pointArcStops),
     STOP(ArcWithoutCentre, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.F5.\nM30\n"),

@@ -48,6 +48,40 @@ void WitnessSearch::sample() {
     }
     keepSample(std::move(given));
   }
+  sampleOffsets();
+}
+
+std::vector<std::uint32_t> WitnessSearch::offsetsNamed() const {
+  constexpr std::size_t kMostOffsets = 3;
+  const ProgramFile &file = programs_.file(entry_.file);
+  const OffsetMemory &memory = file.dialect->behaviour.cutterOffsets;
+  std::vector<std::uint32_t> cells;
+  for (const Word &word : file.tree->words) {
+    const std::uint32_t number = word.address() == 'D' ? word.integer().value_or(0) : 0;
+    if (number == 0 || number > memory.count)
+      continue;
+    const std::uint32_t cell = cellOf(*file.dialect, memory.geometry.front() + number - 1);
+    if (std::ranges::find(cells, cell) == cells.end() && cells.size() < kMostOffsets)
+      cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Without a word of the contract on the tool: radii as they stand in tool tables, the smallest first, so that the
+/// smallest one is told with which the contour cannot be cut.
+void WitnessSearch::sampleOffsets() {
+  constexpr std::size_t kBases = 2; // calls
+  const std::vector<std::uint32_t> cells = offsetsNamed();
+  if (start_.cutterRadius || cells.empty())
+    return;
+  const std::size_t known = std::min(samples_.size(), kBases);
+  for (std::size_t i = 0; i < known; ++i)
+    for (const double radius : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.5, 16.0, 25.0, 40.0, 63.0}) {
+      GivenVariables given = samples_[i].given;
+      for (const std::uint32_t cell : cells)
+        given.set(cell, ConcreteValue::of(radius));
+      keepSample(std::move(given));
+    }
 }
 
 /// Of a call, what the program reads.

@@ -144,6 +144,9 @@ private:
   static GivenVariables variantOf(GivenVariables given, const std::vector<std::uint32_t> &names,
                                   const std::vector<double> &pool, std::mt19937 &random);
   std::set<std::uint32_t> inputsRead() const;
+  /// The cells of the cutter offsets that the program names by D.
+  std::vector<std::uint32_t> offsetsNamed() const;
+  void sampleOffsets();
   /// What the machine, or a program that is not in the files, gives it is bound by nothing.
   bool readsAnything(std::uint32_t variable) const;
   std::set<std::uint32_t> signalsRead() const;

@@ -122,6 +122,17 @@ std::string quotedWord(const std::string &word) {
   return text + "'";
 }
 
+/// Of a mill, whose cell of a cutter radius it is.
+std::optional<std::uint32_t> offsetNumber(const Dialect &dialect, std::uint32_t variable) {
+  const OffsetMemory &memory = dialect.behaviour.cutterOffsets;
+  if (dialect.machine == MachineKind::Turning)
+    return std::nullopt;
+  for (std::uint32_t number = 1; number <= memory.count; ++number)
+    if (cellOf(dialect, memory.geometry.front() + number - 1) == variable)
+      return number;
+  return std::nullopt;
+}
+
 TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
                    const ProveReport &report) {
   const ProgramModel &model = file.file().model;
@@ -137,6 +148,12 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     if (const auto letter = letterFor(file.project->dialect(), variable); letter && name.number) {
       letters += fmt::format(" {}{}", *letter, withPoint(value.number));
       result.options += fmt::format(" --arg {}={}", *letter, shortest(value.number));
+      continue;
+    }
+    if (const auto offset = offsetNumber(file.project->dialect(), variable)) {
+      result.others.emplace_back(fmt::format("D{}", *offset), shortest(value.number));
+      result.variables.emplace_back(fmt::format("{}", variable), value.number);
+      result.options += fmt::format(" --offset D{}={}", *offset, shortest(value.number));
       continue;
     }
     const std::string shown = file.project->set->nameOfVariable(variable);
