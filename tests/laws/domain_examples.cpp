@@ -46,6 +46,12 @@ TEST(AbstractNumberExamples, WholeNumbersBelowABoundEndBeforeIt) {
   EXPECT_EQ(meetLess(counter, 0), std::nullopt);
 }
 
+TEST(AbstractNumberExamples, WholeNumbersLieBetweenLargeDoubles) {
+  constexpr std::int64_t kAllWhole = std::int64_t{1} << 53;
+  const AbstractNumber number = AbstractNumber::integersIn({0x1p53 + 2, 0x1p53 + 4});
+  EXPECT_TRUE(number.containsExactly(Rational(kAllWhole + 3)));
+}
+
 TEST(AbstractNumberExamples, ACounterKeepsItsStep) {
   const AbstractNumber second = widen(AbstractNumber::constant(10), joinOf({10, 9.5}), {});
   EXPECT_EQ(second, joinOf({10, 9.5}));

@@ -114,11 +114,13 @@ std::optional<AbstractNumber> reducedWhole(const NumberParts &parts) {
   tight.interval = {std::ceil(parts.interval.lo) + 0.0, std::floor(parts.interval.hi)};
   if (tight.interval.lo > tight.interval.hi)
     return std::nullopt;
+  constexpr double kAllWhole = 0x1p53; // beyond, there are whole numbers between doubles
+  if (tight.interval.lo < tight.interval.hi && std::max(-tight.interval.lo, tight.interval.hi) > kAllWhole)
+    return tight.asGiven();
   std::array<double, FiniteSet::kMost> values{};
   std::size_t count = 0;
   for (double value = tight.interval.lo; count < values.size() && value <= tight.interval.hi; ++value)
     values[count++] = value;
-  // The loop also ends where adding 1 changes nothing any more.
   if (count == 0 || values[count - 1] != tight.interval.hi)
     return tight.asGiven();
   return ofSet(*FiniteSet::of(std::span(values).first(count)));
