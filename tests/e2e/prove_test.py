@@ -206,8 +206,8 @@ class Prove(Scratch):
     # ---- few passes ----
 
     def test_count_without_bound(self):
-        self.write("W.nc", "O1\n#1=0\n#2=0\nN10 IF[#1000EQ1]GOTO20\n#1=#1+1\n#2=#2+1\nGOTO10\n"
-                           "N20 IF[#1NE#2]GOTO90\nM30\nN90#3000=1(NOT THE SAME)\n"
+        self.write("W.nc", "O1\n#1=0\n#2=0\nN10 IF[#1000EQ1]GOTO20\n#1=#1+1\n#2=#2+3\nGOTO10\n"
+                           "N20 IF[#2NE#1*3]GOTO90\nM30\nN90#3000=1(NOT THE SAME)\n"
                            "O2\n#1=0\nN10 #1=#1+1\nIF[#1GT0]GOTO10\nM30\n")
         alarm = self.one("O1.alarm-unreachable.N90", "W.nc")
         self.assertEqual((alarm["verdict"], alarm["ifPassesAtMost"]), ("unreachable", 10 ** 12))
@@ -358,8 +358,7 @@ class Prove(Scratch):
         replay = self.feedhold(*row["witness"]["run"].split()[1:])
         self.assertIn("alarm PS0020", replay.stdout)
         self.write("O7.nc", "O7\n(@MODAL G17)\n(@START X0 Y0)\nG91\nG03 X-10. Y10. I-10. J0 F100\nM99\n")
-        [row] = [row for row in self.obligations("O7.nc") if "radius differs" in row["claim"]]
-        self.assertEqual(row["verdict"], "proved")
+        self.assertEqual([row for row in self.obligations("O7.nc") if "radius differs" in row["claim"]], [])
 
     def test_a_setting_that_breaks_the_claim(self):
         self.write("O8.nc", "O8\nG17 G21 G90 G94\nG98 G81 Z-5. F100\nG80\nM99\n")

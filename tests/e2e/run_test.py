@@ -100,6 +100,21 @@ class Run(Scratch):
             with self.subTest(given=given):
                 self.assertExit(self.run_program("wait.nc", "--input", given), 2)
 
+    def test_inputs_with_names(self):
+        """Pins, values of the control that are not followed, and what missing subroutines return."""
+        self.write("pins.ngc", "#<a>=#<_hal[probe.in]>\n#<a>=[#<a>*10+#<_hal[probe.in]>]\n#<t>=#<_current_tool>\n"
+                   "o<probe> call\n#<v>=#<_value>\no<probe> call\n#<w>=#<_value>\n#<r>=#<_value_returned>\nm2\n")
+        run = ("run", "--dialect", "linuxcnc", "--isolated", "--missing", "return", "--format", "json", "pins.ngc")
+        inputs = ("--input", "#<_hal[probe.in]>=1,2", "--input", "<_current_tool>=7")
+        for values, expected in (((), {"v": 0, "w": 0, "r": 0}),
+                                 (("--input", "#<_value>=-1,3"), {"v": -1, "w": 3, "r": 1})):
+            result = self.feedhold(*run, *inputs, *values)
+            self.assertExit(result, 0)
+            variables = json.loads(result.stdout)["variables"]
+            self.assertEqual({name: variables[f"<{name}>"] for name in ("a", "t", "v", "w", "r")},
+                             {"a": 12, "t": 7} | expected)
+        self.assertEqual(json.loads(self.feedhold(*run).stdout)["end"], "alarm")  # the pin is not there
+
     def test_start(self):
         self.write("arc.nc", "O8\n#1=#4002\n#2=#4120\n#3=#5041\nG3X10.Y0I5.J0F100\nM30\n")
         self.assertEqual(self.report("arc.nc")["end"], "M30")

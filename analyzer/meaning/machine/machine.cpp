@@ -11,6 +11,12 @@
 
 namespace feedhold {
 
+bool isReadByName(const ProgramSet &programs, const Dialect &dialect, std::uint32_t variable) {
+  const PredefinedName *name = findPredefinedName(dialect, variable);
+  return programs.isInputName(variable) || variable == programs.returnedValue() ||
+         (name && name->source == NameSource::NotFollowed);
+}
+
 namespace {
 
 using State = MachineState<ConcreteInterpretation>;

@@ -26,6 +26,10 @@ enum class CutterCompensation : std::uint8_t { NotFollowed, Followed };
 /// The operator's switch: blocks with a `/` are executed or passed over.
 enum class BlockSkipSwitch : std::uint8_t { Off, On };
 
+/// What `#<name>` gives comes from outside, by a script: a pin, a value of the control that is not followed, what a
+/// program that is in none of the files returns.
+bool isReadByName(const ProgramSet &programs, const Dialect &dialect, std::uint32_t variable);
+
 struct RunOptions {
   GivenVariables variables = {}; // arguments are the local variables; not listed: vacant
   std::array<double, kAxisCount> start{};

@@ -93,16 +93,13 @@ private:
     return interpretation_.both(interpretation_.negation(circle.byRadius),
                                 context_.either(circle.byCentre, circle.beside));
   }
-  /// A control that refuses a distance beside the plane does so whatever else is given; of others it is not known
-  /// whether it is in the place of the centre.
+  /// A control that refuses a distance beside the plane does so whatever else is given, but for R; of others it is not
+  /// known whether it is in the place of the centre.
   Truth withoutCentre(const Circle &circle) {
-    const Truth isMissing = without(circle);
-    const Truth counts = context_.dialect().switches.besideCentreStops == Switch::On
-                             ? interpretation_.negation(circle.byRadius)
-                             : isMissing;
     const Truth refused =
-        interpretation_.both(interpretation_.both(circle.beside, counts), context_.isOn(&Switches::besideCentreStops));
-    return context_.either(interpretation_.both(isMissing, interpretation_.negation(circle.beside)), refused);
+        interpretation_.both(interpretation_.both(circle.beside, interpretation_.negation(circle.byRadius)),
+                             context_.isOn(&Switches::besideCentreStops));
+    return context_.either(interpretation_.both(without(circle), interpretation_.negation(circle.beside)), refused);
   }
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);

@@ -132,7 +132,7 @@ private:
     return interpretation_.anything();
   }
   Value literalArgument(const Word &word) {
-    Value value = scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
+    Value value = scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint), PointRule::OfArgument);
     interpretation_.hold(value, {word.span(), NumberLiteral{word.number()}});
     return value;
   }

@@ -403,7 +403,8 @@ template <ValueAlgebra R> typename R::Truth lacksDepth(const StepContext<R> &con
     inPlane = context.either(inPlane, interpretation.both(inForce, lacks(plane.normal)));
     inSome = context.either(inSome, lacks(plane.normal));
   }
-  inPlane = context.either(inPlane, interpretation.both(inOtherPlane(context), inSome));
+  const auto mayLack = interpretation.both(inSome, context.maybeNot()); // its normal may be U, V or W
+  inPlane = context.either(inPlane, interpretation.both(inOtherPlane(context), mayLack));
   const auto byPlane = context.isOn(&Switches::fxy);
   const auto alongZ = interpretation.both(interpretation.negation(byPlane), lacks(Axis::Z));
   return context.either(interpretation.both(byPlane, inPlane), alongZ);

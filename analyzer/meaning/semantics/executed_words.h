@@ -78,9 +78,13 @@ template <ValueAlgebra R>
 typename R::Value roundedToIncrement(StepContext<R> &context, const AddressFormat &format,
                                      const typename R::Value &value);
 
+/// Arguments of macro calls follow rules of their own.
+enum class PointRule : std::uint8_t { OfAddress, OfArgument };
+
 /// A literal without decimal point is counted in increments or in units: parameter DPI.
 template <ValueAlgebra R>
-typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point);
+typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point,
+                                PointRule rule = PointRule::OfAddress);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
 
@@ -103,7 +107,9 @@ inline bool takesIncrement(const AddressFormat &format, char address) {
 
 /// Coordinates, centres and radii: one parameter says of all of them what a number without a point is (3401#0 of FANUC,
 /// #1078 of Mitsubishi, Setting 162 of Haas).  Of other words (Q, E, F) manuals differ.
-inline bool isPlace(char address) { return std::string_view("XYZUVWABCIJKR").find(address) != std::string_view::npos; }
+inline bool followsPointParameter(char address, PointRule rule) {
+  return rule == PointRule::OfAddress && std::string_view("XYZUVWABCIJKR").find(address) != std::string_view::npos;
+}
 
 /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
 /// `value`: of the expression.
@@ -306,7 +312,7 @@ typename R::Value countedLiteral(StepContext<R> &context, const AddressFormat &f
 }
 
 template <ValueAlgebra R>
-typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point) {
+typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point, PointRule rule) {
   const AddressFormat &format = formatOf(context.dialect(), address);
   const bool isCounted = format.kind == AddressKind::Length || format.kind == AddressKind::Angle;
   if (isCounted && context.behaviour().roundsWords && !literal.isInteger())
@@ -323,11 +329,16 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
     return context.interpretation.literal(
         Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
   });
-  const auto asWritten = context.interpretation.literal(literal);
-  if (detail::isPlace(address))
-    return context.interpretation.select(context.isOn(&Switches::dpi), asWritten, inIncrements);
-  return context.dialect().switches.dpi == Switch::Off ? inIncrements
-                                                       : context.interpretation.either(inIncrements, asWritten);
+  if (context.dialect().switches.dpi == Switch::Off)
+    return inIncrements;
+  R &interpretation = context.interpretation;
+  const auto asWritten = interpretation.literal(literal);
+  const auto isOn = context.isOn(&Switches::dpi);
+  if (detail::followsPointParameter(address, rule))
+    return interpretation.select(isOn, asWritten, inIncrements);
+  // Whichever the parameter says; a run takes what it says.
+  return interpretation.select(isOn, interpretation.either(asWritten, inIncrements),
+                               interpretation.either(inIncrements, asWritten));
 }
 
 template <ValueAlgebra R>

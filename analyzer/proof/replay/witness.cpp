@@ -155,7 +155,7 @@ bool WitnessSearch::isAllowed(const GivenVariables &given) const {
 }
 
 bool WitnessSearch::readsAnything(std::uint32_t variable) const {
-  return programs_.isInputName(variable) || isPredefinedName(variable);
+  return isReadByName(programs_, *programs_.file(entry_.file).dialect, variable);
 }
 
 /// What is said of an input holds of each reading.

@@ -72,7 +72,7 @@ bool isInput(const Dialect &dialect, std::uint32_t variable) {
 
 /// `#1000=0,0,1`
 std::optional<Error> addReadings(const std::string &text, const Project &programs, GivenVariables &given) {
-  const std::size_t equals = text.find('=');
+  const std::size_t equals = text.rfind('='); // names may have one
   std::vector<double> script;
   for (std::size_t at = equals; at < text.size();) {
     const std::size_t comma = text.find(',', at + 1);
@@ -86,7 +86,7 @@ std::optional<Error> addReadings(const std::string &text, const Project &program
     return Error{fmt::format("--input: `{}` is not of the form #1000=0,0,1", text)};
   const std::string_view name = trimmed(std::string_view(text).substr(0, equals));
   const auto variable = variableFrom(*programs.set, name);
-  const bool isNamed = variable && (programs.set->isInputName(*variable) || isPredefinedName(*variable));
+  const bool isNamed = variable && isReadByName(*programs.set, programs.dialect(), *variable);
   if (!variable || (!isNamed && (*variable >= kFirstNamedVariable || !isInput(programs.dialect(), *variable))))
     return Error{
         fmt::format("--input: `{}` is not an input or a clock of this control; use --var to set any variable", name)};
