@@ -36,8 +36,8 @@ void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &
     values.emplace(variable, value.vacant
                                  ? interpretation.vacant()
                                  : SymbolicValue{store.no(), store.number(inputNumber(interpretation, value.number))});
-  for (const auto &[variable, script] : given.readings.entries()) // what is read is there
-    if (variable >= kFirstNamedVariable)
+  for (const auto &[variable, script] : given.readings.entries()) // a pin that is read is there
+    if (variable >= kFirstNamedVariable && !isPredefinedName(variable))
       values.try_emplace(variable, store.no(), store.number(inputNumber(interpretation, script.front())));
   interpretation.startFrom(std::move(values));
   if (given.readings.entries().empty())

@@ -67,8 +67,7 @@ std::vector<std::uint32_t> WitnessSearch::offsetsNamed() const {
   return cells;
 }
 
-/// Without a word of the contract on the tool: radii as they stand in tool tables, the smallest first, so that the
-/// smallest one is told with which the contour cannot be cut.
+/// Without a word of the contract on the tool: radii as they stand in tool tables, the same for all offsets.
 void WitnessSearch::sampleOffsets() {
   constexpr std::size_t kBases = 2; // calls
   const std::vector<std::uint32_t> cells = offsetsNamed();
