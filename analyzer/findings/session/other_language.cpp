@@ -74,8 +74,7 @@ std::vector<std::string> notesOfDoubt(const std::vector<RawFinding *> &errors, c
     notes.push_back(fmt::format("also in line {}: {}", context.source.lineOf(other.span.begin), other.message));
   }
   if (errors.size() > kMostListed + 1)
-    notes.push_back(fmt::format("{} more blocks are wrong for {}: `--severity info` shows them",
-                                errors.size() - 1 - kMostListed, context.dialect.id));
+    notes.push_back(fmt::format("and {} more: shown with `--severity info`", errors.size() - 1 - kMostListed));
   notes.push_back(
       fmt::format("nothing in the program shows that it is for {0}: name its control with `--dialect` or in "
                   "feedhold.toml",
