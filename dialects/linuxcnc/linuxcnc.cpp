@@ -175,6 +175,7 @@ const Dialect &linuxcnc() {
     dialect.switches.nat = Switch::On; // ATAN gives -180 to 180 degrees
     dialect.switches.ad2 = Switch::On; // "Multiple X words on one line"
     dialect.switches.m3b = Switch::On; // four M codes of different groups
+    dialect.switches.lrp = Switch::On; // G0 is "coordinated linear motion"
     dialect.switches.fxy = Switch::On; // G18 drills along Y
     dialect.switches.pointArcStops = Switch::On;
     dialect.switches.besideCentreStops = Switch::On; // "K word given for arc in xy plane"

@@ -47,10 +47,10 @@ bool turnsBack(const Move &first, const Move &second) {
 class ArcInWrongDirection final : public FlowRule {
 public:
   ArcInWrongDirection(ProgramId program, const FileContext &context)
-      : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling && hasArcs()) {}
+      : view_(program, context), isTurning_(context.dialect.machine == MachineKind::Turning), isAsked_(hasArcs()) {}
 
   void before(NodeId node, const AbstractState &state) override {
-    start_ = isAsked_ && movesInPlane(node) && isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
+    start_ = isAsked_ && movesInPlane(node) && isInUsualPlane(view_, state) ? pointOf(view_, state) : std::nullopt;
   }
   void after(NodeId node, const AbstractState &state) override {
     if (!isAsked_ || !std::holds_alternative<ExecuteWords>(view_.node(node).instruction))
@@ -62,7 +62,7 @@ public:
       }
       return;
     }
-    const auto end = isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
+    const auto end = isInUsualPlane(view_, state) ? pointOf(view_, state) : std::nullopt;
     const auto arc = start_ && end ? arcFrom(node, state, *end) : std::nullopt;
     const auto move = arc ? std::optional(arc->move) : start_ && end ? lineTo(node, state, *end) : std::nullopt;
     judge(move);
@@ -81,8 +81,11 @@ public:
   }
 
 private:
+  bool mayHaveAny(NodeId node, std::string_view letters) const {
+    return std::ranges::any_of(letters, [&](char letter) { return view_.mayHave(node, letter); });
+  }
   bool hasArcs() const {
-    const auto isArc = [&](NodeId node) { return view_.mayHave(node, 'I') || view_.mayHave(node, 'J'); };
+    const auto isArc = [&](NodeId node) { return mayHaveAny(node, isTurning_ ? "KI" : "IJ"); };
     for (NodeId node(0); node.index() < view_.cfg().nodes.size(); node = node.next())
       if (isArc(node))
         return true;
@@ -95,15 +98,13 @@ private:
   }
   /// A tool path has a million blocks: few questions need a look at the words.
   bool movesInPlane(NodeId node) const {
-    if (!view_.mayHave(node, 'X') && !view_.mayHave(node, 'Y'))
+    if (!mayHaveAny(node, isTurning_ ? "XZUW" : "XY"))
       return false;
     return !view_.mayHave(node, 'G') ||
            view_.mayDo(node, {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
            !view_.modalMotionWords(node).empty();
   }
-  bool movesElsewhere(NodeId node) const {
-    return std::ranges::any_of(std::string_view("XYZIJG"), [&](char letter) { return view_.mayHave(node, letter); });
-  }
+  bool movesElsewhere(NodeId node) const { return mayHaveAny(node, isTurning_ ? "XYZUVWCHIJKG" : "XYZIJG"); }
   /// `move` follows the arc that waits for it.
   void judge(const std::optional<Move> &move) {
     if (!pending_)
@@ -129,14 +130,13 @@ private:
   std::optional<Arc> arcFrom(NodeId node, const AbstractState &state, const Vector &end) const {
     const bool clockwise = view_.surely(state, ModalKind::Motion, {CodeAction::ArcClockwise});
     const bool isArc = clockwise || view_.surely(state, ModalKind::Motion, {CodeAction::ArcCounterclockwise});
-    if (!isArc || !countsFromStart(view_, state) || view_.mayHave(node, 'R') || view_.mayHave(node, 'P') ||
-        view_.mayHave(node, 'K'))
+    if (!isArc || !countsFromStart(view_, state) || mayHaveAny(node, "RP") || view_.namesOtherPlane(node))
       return std::nullopt;
-    const auto i = distanceIn(view_, node, 'I');
-    const auto j = distanceIn(view_, node, 'J');
-    if (!i || !j)
+    const auto first = distanceIn(view_, node, view_.usualPlane().firstCentre);
+    const auto second = distanceIn(view_, node, view_.usualPlane().secondCentre);
+    if (!first || !second)
       return std::nullopt;
-    const Vector centre{(*start_)[0] + *i, (*start_)[1] + *j};
+    const Vector centre{(*start_)[0] + *first, (*start_)[1] + *second};
     const Vector from = between(centre, *start_);
     const Vector to = between(centre, end);
     const double radius = lengthOf(from);
@@ -168,6 +168,7 @@ private:
   }
 
   MotionView view_;
+  bool isTurning_;
   bool isAsked_;
   std::optional<Vector> start_;
   std::optional<Move> last_;

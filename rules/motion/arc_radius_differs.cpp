@@ -27,7 +27,7 @@ public:
     if (!mayBeArc(node) || mapped_.contains(node))
       return;
     const std::optional<ArcBlock> block = arcIn(node, state);
-    if (!block || isPlainlyKnown(node, *block))
+    if (!block || (view_.planeIn(state) && isPlainlyKnown(node, *block)))
       return refuse(node);
     const auto [known, isNew] = blocks_.try_emplace(node, *block);
     if (!isNew && known->second != *block)
@@ -79,7 +79,8 @@ private:
   }
   /// Absent where it may be no arc, or its words may mean something else.
   std::optional<ArcBlock> arcIn(NodeId node, const AbstractState &state) {
-    const std::optional<Plane> plane = planeIn(node, state);
+    const std::optional<Plane> given = view_.planeIn(state);
+    const std::optional<Plane> plane = given ? given : usualPlane(node, state);
     const bool hasModes = view_.modes().groupOf(ModalKind::Distance).has_value();
     const bool isAbsolute = !hasModes || view_.surely(state, ModalKind::Distance, {CodeAction::Absolute});
     const bool isKnown = isAbsolute || view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
@@ -103,35 +104,10 @@ private:
     return block.start[0] && block.start[1] &&
            std::ranges::none_of(words, [](const Word *word) { return word->form() == WordForm::Expression; });
   }
-  std::optional<Plane> planeIn(NodeId node, const AbstractState &state) {
-
-    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}))
-      return kPlaneXY;
-    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneZX}))
-      return kPlaneZX;
-    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ}))
-      return kPlaneYZ;
-    // A mill is in G17 when it is switched on; the words of the arc name no other plane.
-    const bool isPlain = view_.context().dialect.machine == MachineKind::Milling && !view_.mayHave(node, 'K') &&
-                         !view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ});
-    return isPlain && !callersTurnPlane() ? std::optional(kPlaneXY) : std::nullopt;
-  }
-  /// A file that calls the program has G18 or G19.
-  bool callersTurnPlane() {
-    if (callersTurnPlane_)
-      return *callersTurnPlane_;
-    const FileContext &context = view_.context();
-    std::set<FileId> files;
-    for (const CallGraph::Caller &caller : context.callGraph.callers({context.file, view_.program()}))
-      files.insert(caller.file);
-    callersTurnPlane_ = std::ranges::any_of(files, [&](FileId file) {
-      const auto &nodes = context.programs->file(file).cfg.nodes;
-      return std::ranges::any_of(nodes, [](const Node &node) {
-        const auto *words = std::get_if<ExecuteWords>(&node.instruction);
-        return words && (words->traits.mayDo(CodeAction::PlaneZX) || words->traits.mayDo(CodeAction::PlaneYZ));
-      });
-    });
-    return *callersTurnPlane_;
+  /// That of power-on, where the words of the arc name no other.
+  std::optional<Plane> usualPlane(NodeId node, const AbstractState &state) const {
+    return view_.namesOtherPlane(node) || view_.choseOtherPlane(state) ? std::nullopt
+                                                                       : std::optional(view_.usualPlane());
   }
 
   void tell(const FlowFacts &facts, NodeId node, Span place, const std::optional<ApartRadii> &radii,
@@ -158,7 +134,6 @@ private:
   static constexpr double kShown = 1e-6; // a bound of a radius, as the place that messages have for it
 
   MotionView view_;
-  std::optional<bool> callersTurnPlane_;
   std::set<NodeId> mapped_;
   std::map<NodeId, ArcBlock> blocks_;
   NodeId first_;

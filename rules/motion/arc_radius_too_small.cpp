@@ -29,8 +29,7 @@ public:
   void after(NodeId node, const AbstractState &state) override {
     if (!view_.mayHave(node, 'R') || mayBeTrue(state.transformed) || isHavocked(state) || !state.modalCalls.empty() ||
         !view_.surely(state, ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
-        view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}) ||
-        view_.context().dialect.machine == MachineKind::Turning)
+        view_.modalMotionWords(node).empty() || view_.namesOtherPlane(node) || view_.choseOtherPlane(state))
       return;
     const Word *radius = wordOf(node, 'R');
     if (!radius)
@@ -79,9 +78,10 @@ private:
   }
   /// In every state the chord is at least this long.
   std::optional<double> chordOf(NodeId node, const AbstractState &state) const {
-    const auto x = distanceAlong(Axis::X, node, state);
-    const auto y = distanceAlong(Axis::Y, node, state);
-    return x && y ? std::optional(std::hypot(*x, *y)) : std::nullopt;
+    const Plane plane = view_.usualPlane();
+    const auto first = distanceAlong(plane.first, node, state);
+    const auto second = distanceAlong(plane.second, node, state);
+    return first && second ? std::optional(std::hypot(*first, *second)) : std::nullopt;
   }
   bool isTooSmall(const FlowFacts &facts, NodeId node, const Word &radius) const {
     const AbstractValue *computed =
@@ -96,19 +96,20 @@ private:
   std::optional<double> distanceAlong(Axis axis, NodeId node, const AbstractState &state) const {
     const auto end = placeOf(state, axis);
     if (const auto start = start_[indexOf(axis)]; start && end)
-      return *end - *start;
+      return view_.lengthOf(axis) * (*end - *start);
     const Word *word = wordOf(node, letterOf(axis));
     if (!word)
       return view_.mayHave(node, letterOf(axis)) ? std::nullopt : std::optional(0.);
-    return incremental_.at(node) && word->isNumber() ? std::optional(word->number().toDouble()) : std::nullopt;
+    return incremental_.at(node) && word->isNumber() ? std::optional(view_.lengthOf(axis) * word->number().toDouble())
+                                                     : std::nullopt;
   }
   /// `G91 G02 X#7 R[#7/2]`: half of the distance, but for the rounding of both words.
   bool isHalfOfVariable(const FlowFacts &facts, NodeId node, const Word &radius) const {
     const Word *x = wordOf(node, 'X');
     const Word *y = wordOf(node, 'Y');
     const Word *along = x ? x : y;
-    if (!incremental_.at(node) || !along || (x && y) || along->form() != WordForm::Expression ||
-        radius.form() != WordForm::Expression)
+    if (view_.context().dialect.machine == MachineKind::Turning || !incremental_.at(node) || !along || (x && y) ||
+        along->form() != WordForm::Expression || radius.form() != WordForm::Expression)
       return false;
     StraightPath path(facts, node, [](NodeId) { return false; });
     const auto chord = path.formOf(along->expression(), 0);

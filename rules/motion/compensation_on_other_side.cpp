@@ -96,7 +96,7 @@ public:
       : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling) {}
 
   void before(NodeId, const AbstractState &state) override {
-    start_ = isAsked_ && isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
+    start_ = isAsked_ && isInUsualPlane(view_, state) ? pointOf(view_, state) : std::nullopt;
   }
   void after(NodeId node, const AbstractState &state) override {
     if (!isAsked_)
@@ -138,7 +138,7 @@ private:
         view_.mayHave(node, 'X') || view_.mayHave(node, 'Y') || view_.mayHave(node, 'I') || view_.mayHave(node, 'J');
     if (!moves)
       return true;
-    const auto end = isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
+    const auto end = isInUsualPlane(view_, state) ? pointOf(view_, state) : std::nullopt;
     if (!start_ || !end || view_.modalMotionWords(node).empty())
       return false;
     if (section_->points.empty())

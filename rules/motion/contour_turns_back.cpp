@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace feedhold::rules::contour_turns_back {
 namespace {
@@ -13,12 +16,29 @@ constexpr double kClearly = 0.01;
 
 enum class Along : std::uint8_t { X, Z };
 
+/// From a start on one side of the contour, the first block goes to where the infeed ends: the contour leads back from
+/// there.  0: the start does not tell.
+double directionFrom(const std::optional<double> &start, const std::vector<double> &contour) {
+  const auto lies = [&](auto compare) {
+    return start && std::ranges::all_of(contour, [&](double at) { return compare(*start, at); });
+  };
+  if (!lies(std::greater_equal<>()) && !lies(std::less_equal<>()))
+    return 0;
+  const double back = *start - contour.front();
+  return std::abs(back) > kClearly ? back : 0;
+}
+
+std::vector<double> along(const std::vector<TurningPoint> &corners, Along axis) {
+  std::vector<double> coordinates;
+  for (const TurningPoint &corner : corners)
+    coordinates.push_back(axis == Along::X ? *corner.x : *corner.z);
+  return coordinates;
+}
+
 /// The block in which the contour first goes against the direction that it has had along the axis.
-std::optional<std::size_t> turnOf(const std::vector<TurningPoint> &corners, Along along) {
-  const auto at = [&](std::size_t i) { return along == Along::X ? *corners[i].x : *corners[i].z; };
-  double direction = 0;
+std::optional<std::size_t> turnOf(const std::vector<double> &corners, double direction) {
   for (std::size_t i = 1; i < corners.size(); ++i) {
-    const double step = at(i) - at(i - 1);
+    const double step = corners[i] - corners[i - 1];
     if (std::abs(step) <= kClearly)
       continue;
     if (direction * step < 0)
@@ -29,8 +49,8 @@ std::optional<std::size_t> turnOf(const std::vector<TurningPoint> &corners, Alon
 }
 
 /// The last block goes back along the way that the blocks before it cut: at the same X, or the same Z of a face.
-bool dragsBack(const std::vector<TurningPoint> &corners, Along along) {
-  const auto across = [&](std::size_t i) { return along == Along::X ? *corners[i].z : *corners[i].x; };
+bool dragsBack(const std::vector<TurningPoint> &corners, Along axis) {
+  const auto across = [&](std::size_t i) { return axis == Along::X ? *corners[i].z : *corners[i].x; };
   const std::size_t last = corners.size() - 1;
   return across(last) == across(last - 1) && across(last - 1) == across(last - 2);
 }
@@ -73,17 +93,19 @@ void judge(const Contour &contour, const TurningPoint &start, const TurningWalk 
     return findWord(context.tree, blocks.front(), a) || findWord(context.tree, blocks.front(), b);
   };
   const bool isPocket = hasFirst('X', 'U') && hasFirst('Z', 'W');
-  for (const Along along : {Along::X, Along::Z}) {
-    const bool isAcross = (along == Along::X) != isFacing; // the direction of the infeed
-    const auto turn = isPocket && isAcross ? std::nullopt : turnOf(corners, along);
+  for (const Along axis : {Along::X, Along::Z}) {
+    const bool isAcross = (axis == Along::X) != isFacing; // the direction of the infeed
+    const std::vector<double> coordinates = along(corners, axis);
+    const double direction = isAcross ? directionFrom(axis == Along::X ? start.x : start.z, coordinates) : 0;
+    const auto turn = isPocket && isAcross ? std::nullopt : turnOf(coordinates, direction);
     // The last block may go back to the start at rapid, where the compensation ends; not along what was just cut.
     if (!turn ||
         (blocks[*turn] == contour.last &&
-         findAction(context.tree, contour.last, context.dialect, {CodeAction::Rapid}) && !dragsBack(corners, along)))
+         findAction(context.tree, contour.last, context.dialect, {CodeAction::Rapid}) && !dragsBack(corners, axis)))
       continue;
     reporter.report(
         {.message = fmt::format("the contour of {} turns back in {} here", context.quoted(word->span()),
-                                along == Along::X ? 'X' : 'Z'),
+                                axis == Along::X ? 'X' : 'Z'),
          .span = context.tree.blocks[blocks[*turn]].span(),
          .labels = {{context.tree.blocks[cycle].span(), "its cycle"}},
          .notes = {"the cycle cuts contours that go one way along both axes: the control stops, or cuts into the part",

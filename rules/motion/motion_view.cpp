@@ -4,6 +4,8 @@
 #include "meaning/cfg/block_words.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace feedhold::rules {
 namespace {
@@ -151,6 +153,51 @@ bool MotionView::surely(const AbstractState &state, ModalKind kind, std::initial
 bool MotionView::mayBe(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
   return codes && (codes->mayBeAtEntry() || (codes->codes() & modes_->maskOf(kind, actions)) != 0);
+}
+
+std::optional<Plane> MotionView::planeIn(const AbstractState &state) const {
+  for (const auto &[code, plane] : {std::pair{CodeAction::PlaneXY, kPlaneXY}, std::pair{CodeAction::PlaneZX, kPlaneZX},
+                                    std::pair{CodeAction::PlaneYZ, kPlaneYZ}})
+    if (surely(state, ModalKind::Plane, {code}))
+      return plane;
+  return std::nullopt;
+}
+
+Plane MotionView::usualPlane() const { return context_.dialect.machine == MachineKind::Turning ? kPlaneZX : kPlaneXY; }
+
+std::array<CodeAction, 2> MotionView::otherPlanes() const {
+  return {context_.dialect.machine == MachineKind::Turning ? CodeAction::PlaneXY : CodeAction::PlaneZX,
+          CodeAction::PlaneYZ};
+}
+
+bool MotionView::choseOtherPlane(const AbstractState &state) const {
+  const auto [first, second] = otherPlanes();
+  return wasSet(state, ModalKind::Plane, {first, second}) || callersChooseOtherPlane();
+}
+
+/// A file that calls the program has such a code.
+bool MotionView::callersChooseOtherPlane() const {
+  if (callersChooseOtherPlane_)
+    return *callersChooseOtherPlane_;
+  std::set<FileId> files;
+  for (const CallGraph::Caller &caller : context_.callGraph.callers({context_.file, program_}))
+    files.insert(caller.file);
+  const auto chooses = [&](const Node &node) {
+    const auto *words = std::get_if<ExecuteWords>(&node.instruction);
+    return words && std::ranges::any_of(otherPlanes(), [&](CodeAction code) { return words->traits.mayDo(code); });
+  };
+  callersChooseOtherPlane_ = std::ranges::any_of(
+      files, [&](FileId file) { return std::ranges::any_of(context_.programs->file(file).cfg.nodes, chooses); });
+  return *callersChooseOtherPlane_;
+}
+
+bool MotionView::namesOtherPlane(NodeId node) const {
+  const std::string_view letters = context_.dialect.machine == MachineKind::Turning ? "JYC" : "K";
+  return std::ranges::any_of(letters, [&](char letter) { return mayHave(node, letter); });
+}
+
+double MotionView::lengthOf(Axis axis) const {
+  return context_.dialect.machine == MachineKind::Turning && axis == Axis::X ? 0.5 : 1;
 }
 
 } // namespace feedhold::rules

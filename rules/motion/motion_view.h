@@ -4,6 +4,7 @@
 #include "findings/rule/flow_path.h"
 #include "findings/rule/rule.h"
 
+#include <array>
 #include <initializer_list>
 #include <vector>
 
@@ -52,11 +53,26 @@ public:
   bool surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const;
   bool mayBe(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const;
 
+  /// In force in all runs.
+  std::optional<Plane> planeIn(const AbstractState &state) const;
+  /// Since the control was switched on: G17 of a mill, G18 of a lathe.
+  Plane usualPlane() const;
+  /// The code of another was programmed, or may have been before the call.
+  bool choseOtherPlane(const AbstractState &state) const;
+  /// By a letter that no arc of the usual plane has.
+  bool namesOtherPlane(NodeId node) const;
+  /// What a coordinate is times as a length: X of a lathe counts in diameters.
+  double lengthOf(Axis axis) const;
+
 private:
+  std::array<CodeAction, 2> otherPlanes() const;
+  bool callersChooseOtherPlane() const;
+
   const FileContext &context_;
   ProgramId program_;
   const Cfg &cfg_;
   std::shared_ptr<const ModalTable> modes_;
+  mutable std::optional<bool> callersChooseOtherPlane_; // computed when it is first asked for
 };
 
 /// Something that the analysis does not follow has happened on some path: all is unknown behind it.

@@ -1,4 +1,5 @@
-// Points of the XY plane that are numbers in all runs, and how arcs go between them.
+// Points of the plane in force since power-on (XY of a mill, ZX of a lathe) that are numbers in all runs, and how arcs
+// go between them.
 #pragma once
 
 #include "rules/motion/motion_view.h"
@@ -16,22 +17,23 @@ inline PlaneVector between(const PlaneVector &from, const PlaneVector &to) {
 }
 inline double lengthOf(const PlaneVector &vector) { return std::hypot(vector[0], vector[1]); }
 
-/// Programmed coordinates are those of the XY plane: no other plane was chosen, nothing turns or scales them, and no
-/// macro is called at each move.
-inline bool isPlainXY(const MotionView &view, const AbstractState &state) {
+/// Programmed coordinates are those of that plane: no other was chosen, nothing turns or scales them, and no macro is
+/// called at each move.
+inline bool isInUsualPlane(const MotionView &view, const AbstractState &state) {
   return !isHavocked(state) && !mayBeTrue(state.transformed) && state.modalCalls.empty() &&
-         !mayBeTrue(state.modalCallsUnknown) &&
-         !view.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ});
+         !mayBeTrue(state.modalCallsUnknown) && !view.choseOtherPlane(state);
 }
 
-inline std::optional<PlaneVector> pointOf(const AbstractState &state) {
-  const auto numberAt = [&](Axis axis) {
+/// X of a lathe as a radius.
+inline std::optional<PlaneVector> pointOf(const MotionView &view, const AbstractState &state) {
+  const auto lengthAlong = [&](Axis axis) -> std::optional<double> {
     const AbstractValue &coordinate = state.at(axis);
-    return coordinate.isNumber() ? coordinate.number().constantValue() : std::nullopt;
+    const auto number = coordinate.isNumber() ? coordinate.number().constantValue() : std::nullopt;
+    return number ? std::optional(view.lengthOf(axis) * *number) : std::nullopt;
   };
-  const auto x = numberAt(Axis::X);
-  const auto y = numberAt(Axis::Y);
-  return x && y ? std::optional(PlaneVector{*x, *y}) : std::nullopt;
+  const auto first = lengthAlong(view.usualPlane().first);
+  const auto second = lengthAlong(view.usualPlane().second);
+  return first && second ? std::optional(PlaneVector{*first, *second}) : std::nullopt;
 }
 
 /// The distance that a word of the node gives; none is 0.
@@ -46,7 +48,7 @@ inline std::optional<double> distanceIn(const MotionView &view, NodeId node, cha
   return 0;
 }
 
-/// I and J count from the start point.
+/// I, J and K count from the start point.
 inline bool countsFromStart(const MotionView &view, const AbstractState &state) {
   return !view.context().dialect.behaviour.arcDistanceModes ||
          !view.wasSet(state, ModalKind::ArcDistance, {CodeAction::ArcAbsolute});

@@ -25,7 +25,7 @@ Dialect machineOf(const Sample &sample, Random &random) {
   for (Switch *unknown :
        {&switches.dpi, &switches.nat, &switches.g67, &switches.f16, &switches.fxy, &switches.ax1,
         &switches.shortArcStops, &switches.radiiDifferStops, &switches.pointArcStops, &switches.bareCycleStops,
-        &switches.motionEndsCycle, &switches.setEndsLocal, &switches.centreStays})
+        &switches.motionEndsCycle, &switches.setEndsLocal, &switches.centreStays, &switches.lrp})
     if (*unknown == Switch::Unknown)
       *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
   return dialect;

@@ -237,6 +237,7 @@ struct Switches {
   Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
   Switch ad2 = Switch::Off;     // 3403#6: a repeated address is an alarm
   Switch cir = Switch::Unknown; // 3403#5: an arc without R, I, J, K is an alarm (On) or a straight line (Off)
+  Switch lrp = Switch::Unknown; // 1401#1: G00 moves in a straight line (On), or each axis by itself (Off)
   Switch m3b = Switch::Unknown; // 3404#7: up to three M codes in a block
   Switch g67 = Switch::Unknown; // 6000#0: G67 without G66 is no alarm
   Switch v15 = Switch::Off;     // 6000#3: tool offset numbering of Series 15

@@ -11,6 +11,7 @@ constexpr std::array kSwitchNames = {
     SwitchName{.name = "dpi", .which = &Switches::dpi, .isOneParameter = true},
     SwitchName{"ad2", &Switches::ad2},
     SwitchName{"cir", &Switches::cir},
+    SwitchName{"lrp", &Switches::lrp},
     SwitchName{"m3b", &Switches::m3b},
     SwitchName{"g67", &Switches::g67, true},
     SwitchName{"v15", &Switches::v15},

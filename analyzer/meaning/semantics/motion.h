@@ -314,7 +314,7 @@ private:
     if (interpretation_.mayBe(arc))
       Arcs<R>(context_, words_, hasOtherWay()).follow(start, arc, interpretation_.both(arc, holds));
     if (!context_.certain(arc) && !followCorners(start, holds) && interpretation_.wantsMoves())
-      tellLine(start);
+      tellLine(start, context_.dialect().switches.lrp == Switch::On);
     if (!interpretation_.mayBe(turning))
       return;
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
@@ -387,7 +387,7 @@ private:
     const auto isWritten = [&](char letter) { return words_.find(letter) != nullptr; };
     return context_.dialect().switches.cir == Switch::Off && std::ranges::none_of(std::string_view("IJKR"), isWritten);
   }
-  void tellLine(const Point &start) {
+  void tellLine(const Point &start, bool isInterpolated) {
     const auto isMotion = [&](CodeAction action) {
       return context_.certain(context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false)));
     };
@@ -396,7 +396,7 @@ private:
                           : isRapid                                                      ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
                                                                                          : MoveKind::Unmodelled;
-    tell(context_, kind, start);
+    tell(context_, kind, start, kind == MoveKind::Rapid && isInterpolated);
   }
   /// Corners that are rounded or chamfered, dimensions given by an angle, single direction positioning (G60).
   bool hasOtherWay() const {
@@ -458,7 +458,7 @@ private:
     if (!context_.behaviour().machineMoveByMode)
       tell(context_, MoveKind::Rapid, start);
     else if (interpretation_.wantsMoves())
-      tellLine(start);
+      tellLine(start, false); // whether G00 interpolates says nothing of G53
     mayCancelLength(context_, present('Z'));
   }
   /// By way of the programmed point to the reference position.

@@ -37,7 +37,14 @@ template <typename Value> struct Move {
   bool offsetsEnd = false;
   /// The line before a corner, or the corner itself (corners.h): told with the line behind it, and not part of that.
   bool leadsToLine = false;
+  /// Of a rapid move: its axes are interpolated.  Otherwise each may be positioned by itself.
+  bool isInterpolated = false;
 };
+
+/// It may be anywhere in the box between its ends.
+template <typename Value> bool isInBox(const Move<Value> &move) {
+  return move.kind == MoveKind::CutInBox || (move.kind == MoveKind::Rapid && !move.isInterpolated);
+}
 
 /// The same move elsewhere.  `by`: how far, along X, Y and Z; `add` adds such a length to a coordinate.
 template <typename Value, typename Length, typename Add>

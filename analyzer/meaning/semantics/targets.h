@@ -49,9 +49,10 @@ std::optional<std::array<typename R::Value, kAxisCount>> distanceOf(StepContext<
 /// Behind a movement: an axis that an absolute word has named is where the control takes it to be.
 template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words);
 
-/// Reports a movement to the interpretation, from `start` to the present position.
+/// Reports a movement to the interpretation, from `start` to the present position; `isInterpolated`: of a rapid one.
 template <ValueAlgebra R>
-void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
+void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start,
+          bool isInterpolated = false);
 /// In a mode that is not followed no movement is told as one whose way is known.
 template <ValueAlgebra R> void tell(StepContext<R> &context, Move<typename R::Value> move);
 
@@ -346,11 +347,13 @@ template <ValueAlgebra R> void settlePending(StepContext<R> &context, const Exec
 }
 
 template <ValueAlgebra R>
-void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start) {
+void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start,
+          bool isInterpolated) {
   if (!context.interpretation.wantsMoves())
     return;
   Move<typename R::Value> move;
   move.kind = kind;
+  move.isInterpolated = isInterpolated;
   if constexpr (!requires { requires R::kAsksForKindsAlone; }) { // most of the work for a line of a tool path
     move.start = start;
     move.end = context.state.position;

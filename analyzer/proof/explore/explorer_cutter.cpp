@@ -214,6 +214,7 @@ void Explorer::giveCentre(const Path &path, MoveInstance &move) {
   const geometry::ToolPath arc(store_, {.kind = move.move.kind,
                                         .start = at(move.move.start),
                                         .end = at(move.move.end),
+                                        .isInBox = false,
                                         .plane = isOfLathe ? kPlaneXY : move.move.plane,
                                         .turns = move.move.turns,
                                         .radius = move.radius});

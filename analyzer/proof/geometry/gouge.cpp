@@ -77,13 +77,12 @@ std::optional<Deepest> insideOnPath(const PlainShape &part, const ToolReach &rea
   return deepestOnPath(path, {depth, course, floor, stepOf(reach.tool())});
 }
 
-std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach &reach, MoveKind kind,
-                                      const GougePath &path, double floor) {
+std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach &reach,
+                                      const Move<ConcreteValue> &move, const GougePath &path, double floor) {
   std::optional<Deepest> worst;
   for (const PlainShape &part : region.parts) {
     const double least = worst ? worst->depth : floor;
-    const auto found =
-        kind == MoveKind::Rapid ? insideInBox(part, reach, path, least) : insideOnPath(part, reach, path, least);
+    const auto found = isInBox(move) ? insideInBox(part, reach, path, least) : insideOnPath(part, reach, path, least);
     if (found)
       worst = found;
   }
@@ -208,7 +207,7 @@ private:
       if (!isCutting(recorded.move.kind))
         return std::nullopt;
       return outsideOnPath(space_.keepIn[region_], reach_, *path, floor);
-    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], reach_, recorded.move.kind, *path, floor);
+    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], reach_, recorded.move, *path, floor);
     case SpaceClaim::Clearance: return tooLow;
     case SpaceClaim::Travel: return outsideOfLimits(space_.travel, *path, floor);
     case SpaceClaim::Machine: return outsideOfLimits(space_.machine, *path, floor);

@@ -19,6 +19,7 @@ struct TermMove {
   MoveKind kind;
   TermPoint start;
   TermPoint end;
+  bool isInBox;           // anywhere in the box between its ends (moves.h)
   Plane plane = kPlaneXY; // of an arc
   TermId firstCentre = TermId(0);
   TermId secondCentre = TermId(0);
@@ -45,8 +46,9 @@ public:
     std::vector<std::pair<TermId, TermId>> example = {}; // values that the conditions allow, by variable
   };
   Hull hull();
-  /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever
-  /// rates; strokes in a box likewise.  What lies between the ends of a helix along its axis is taken at any turn.
+  /// Rapid moves that are not interpolated: anywhere in the box between the ends, as axes that are positioned each by
+  /// itself go, at whatever rates; strokes in a box likewise.  What lies between the ends of a helix along its axis is
+  /// taken at any turn.
   PointOnPath anyPoint();
   /// The hull is the path itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
@@ -59,7 +61,7 @@ public:
 
 private:
   bool isArc() const { return feedhold::isArc(move_.kind); }
-  bool isBox() const { return move_.kind == MoveKind::Rapid || move_.kind == MoveKind::CutInBox; }
+  bool isBox() const { return move_.isInBox; }
   Hull boxHull() const;
   Hull arcHull();
   PointOnPath pointOfLine();

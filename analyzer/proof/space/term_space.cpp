@@ -35,7 +35,7 @@ geometry::TermPoint TermSpace::point(const std::array<SymbolicValue, kAxisCount>
 geometry::TermMove TermSpace::move(const MoveInstance &instance) const {
   const Move<SymbolicValue> &move = instance.move;
   geometry::TermMove result{move.kind, point(move.start, instance.point.zero), point(move.end, instance.point.zero),
-                            tip_ ? kPlaneXY : move.plane};
+                            isInBox(move), tip_ ? kPlaneXY : move.plane};
   if (!isArc(move.kind))
     return result;
   std::array<TermId, 3> centre{store_.number(smt::Number(0)), store_.number(smt::Number(0)),

@@ -259,7 +259,7 @@ SpacePoint anyTip(const RecordedMove &recorded, Random &random) {
   SpacePoint point;
   const double part = share(random);
   for (std::size_t i = 0; i < 3; ++i)
-    point[i] = start[i] + (recorded.move.kind == MoveKind::Rapid ? share(random) : part) * (end[i] - start[i]);
+    point[i] = start[i] + (isInBox(recorded.move) ? share(random) : part) * (end[i] - start[i]);
   return point;
 }
 
