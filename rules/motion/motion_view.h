@@ -61,7 +61,7 @@ public:
   bool choseOtherPlane(const AbstractState &state) const;
   /// By a letter that no arc of the usual plane has.
   bool namesOtherPlane(NodeId node) const;
-  /// What a coordinate is times as a length: X of a lathe counts in diameters.
+  /// The factor from a coordinate to a length: 0.5 for X of a lathe, which counts in diameters.
   double lengthOf(Axis axis) const;
 
 private:
