@@ -15,8 +15,8 @@ public:
       : view_(program, context), isMain_(startedBy(context, program) == StartedBy::Operator) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!isMain_ || isHavocked(state) || !state.word('F').mayBeVacant() || view_.modalMotionWords(node).empty() ||
-        !cuts(state))
+    if (!isMain_ || isHavocked(state) || !state.word('F').mayBeVacant() ||
+        !(contourCycleIn(node) || (!view_.modalMotionWords(node).empty() && cuts(state))))
       return;
     if (isAsAtEntry(state, 'F'))
       never_.note(node);
@@ -32,18 +32,29 @@ public:
     const std::optional<NodeId> place = path ? first_.node() : never_.node();
     if (!place || (path && !reachesPastLoops(facts, facts.entry(), *place, feeds, feeds)))
       return;
-    const Word &word = *view_.modalMotionWords(*place).front();
-    reporter.report({.message = fmt::format("the cutting move to {} comes before any `F`{}",
-                                            context.quoted(word.span()), never_.node() == place ? "" : " on some path"),
-                     .span = word.span(),
-                     .flow = path ? describePath(facts, *path) : std::vector<Label>{},
-                     .notes = {"it uses the feed of the previous program, or the control stops because there is none",
-                               "write F in the block of the first cutting move"}});
+    const Word *cycle = contourCycleIn(*place);
+    const Word &word = cycle ? *cycle : *view_.modalMotionWords(*place).front();
+    reporter.report(
+        {.message = fmt::format("the {} {} comes before any `F`{}", cycle ? "cut by" : "cutting move to",
+                                context.quoted(word.span()), cycle || never_.node() == place ? "" : " on some path"),
+         .span = word.span(),
+         .flow = path ? describePath(facts, *path) : std::vector<Label>{},
+         .notes = {"it uses the feed of the previous program, or the control stops because there is none",
+                   "write F in the block of the first cutting move"}});
   }
 
 private:
   bool hasFeed(NodeId node) const {
     return std::ranges::any_of(view_.wordsOf(node), [](const Word *word) { return word->address() == 'F'; });
+  }
+  /// The block of G71 to G73 that names the contour: the words F of the contour are passed over.
+  const Word *contourCycleIn(NodeId node) const {
+    const auto words = view_.wordsOf(node);
+    const bool namesContour = std::ranges::any_of(words, [](const Word *word) { return word->address() == 'P'; }) &&
+                              std::ranges::any_of(words, [](const Word *word) { return word->address() == 'Q'; });
+    return namesContour
+               ? view_.findAction(node, {CodeAction::TurnContour, CodeAction::FaceContour, CodeAction::RepeatContour})
+               : nullptr;
   }
   bool cuts(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Motion,

@@ -1,4 +1,4 @@
-// length-offset-of-other-tool: `T2 M06`, then `G43 H1` or `G41 D1`.
+// length-offset-of-other-tool: `T2 M06`, then `G43 H1` or `G41 D1`, or no `G43` at all.
 #include "rules/motion/folder_programs.h"
 #include "rules/structure/structure_view.h"
 
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace feedhold::rules::length_offset_of_other_tool {
@@ -22,6 +23,9 @@ struct Section {
   std::uint32_t tool;
   const Word *toolWord;
   std::vector<Offset> lengths;
+  bool setsLength = false; // G43 without H, H without G43, or a code that may set a length
+  bool movesZ = false;
+  const Word *cut = nullptr;      // the code of the first cut before any length and any move in Z
   std::vector<Offset> radii = {}; // D with G41, G42
   bool radiusAgrees = false;      // D has the number of the tool
 };
@@ -103,6 +107,7 @@ public:
       return;
     if (length && hasAction(context_, block, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
       sections_.back().lengths.push_back({*length->integer(), length});
+    readLength(block);
     const bool compensates = hasAction(context_, block, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
     for (const Word &word : context_.tree.wordsOf(block)) {
       if (!isLiteral(word, 'D'))
@@ -117,6 +122,23 @@ public:
   const std::vector<Section> &sections() const { return sections_; }
 
 private:
+  bool moves(BlockId block) const {
+    return std::ranges::any_of(context_.tree.wordsOf(block),
+                               [](const Word &word) { return word.address() == 'X' || word.address() == 'Y'; });
+  }
+  void readLength(BlockId block) {
+    Section &section = sections_.back();
+    section.setsLength = section.setsLength || findWord(context_.tree, block, 'H') ||
+                         hasAction(context_, block,
+                                   {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven,
+                                    CodeAction::LengthOff, CodeAction::Unmodelled, CodeAction::Anything}) ||
+                         findCode(context_.tree, block, context_.dialect, CodeRole::DataSetting);
+    // A move in Z without a length is told by `approach-before-length-offset`.
+    section.movesZ = section.movesZ || findWord(context_.tree, block, 'Z');
+    if (!section.setsLength && !section.movesZ && !section.cut && moves(block))
+      section.cut = findAction(context_.tree, block, context_.dialect,
+                               {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+  }
   void change(BlockId block) {
     isKnown_ = selected_ != nullptr && !hidesTool(context_, block, targets_);
     if (isKnown_)
@@ -154,6 +176,24 @@ void tellNone(const Section &section, const FileContext &context, const Reporter
        .labels = {{section.toolWord->span(), "the tool in the spindle"}},
        .notes = {fmt::format("tool {} moves as if its length were 0: it goes down into the part", section.tool),
                  fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}});
+}
+
+/// It cuts where the one before it has its own length offset, and has none itself.
+bool cutsWithOtherLength(const Section &before, const Section &section) {
+  return agrees(before) && before.tool != section.tool && section.tool != 0 && section.cut && !section.setsLength;
+}
+
+void tellOtherLength(const Section &before, const Section &section, const FileContext &context,
+                     const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("no `G43` comes between {} and the cut by {}", context.quoted(section.toolWord->span()),
+                              context.quoted(section.cut->span())),
+       .span = section.cut->span(),
+       .labels = {{section.toolWord->span(), "the tool in the spindle"},
+                  {before.lengths.front().word->span(), "the length offset of the tool before"}},
+       .notes = {fmt::format("tool {} moves with the length of tool {}, or with none: it cuts too deep, or air",
+                             section.tool, before.tool),
+                 fmt::format("write `G43 H{}` in the first block that moves Z", section.tool)}});
 }
 
 /// A second offset of the same tool by a scheme of the shop: H12 or H52 of T2.
@@ -261,6 +301,19 @@ bool isPairedByRemark(std::uint32_t tool, const FileContext &context) {
   });
 }
 
+/// Where more tools have their own length offset than none, those without one are slips.
+void checkCutsWithoutLength(const std::vector<Section> &sections, std::size_t paired, const FileContext &context,
+                            const Reporter &reporter) {
+  std::vector<std::pair<const Section *, const Section *>> slips;
+  for (std::size_t at = 1; at < sections.size(); ++at)
+    if (cutsWithOtherLength(sections[at - 1], sections[at]))
+      slips.emplace_back(&sections[at - 1], &sections[at]);
+  if (slips.size() > paired)
+    return;
+  for (const auto &[before, section] : slips)
+    tellOtherLength(*before, *section, context, reporter);
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (turns(program, context))
     return;
@@ -288,6 +341,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     if (countsRadii)
       checkRadius(section, tools, context, reporter);
   }
+  checkCutsWithoutLength(sections, paired.size(), context, reporter);
 }
 
 void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {}
@@ -297,8 +351,8 @@ void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {
 extern const Rule lengthOffsetOfOtherTool;
 const Rule lengthOffsetOfOtherTool{
     .info = {"length-offset-of-other-tool", Category::Motion, Severity::Warning,
-             "Reports a `G43 H`, or a `G41 D`, with the number of another tool in a program that otherwise gives "
-             "tool and offset one number."},
+             "Reports a `G43 H`, or a `G41 D`, with the number of another tool, or a cut without a `G43`, in a program "
+             "that otherwise gives tool and offset one number."},
     .hooks = {.program = check, .flow = asksForPrograms}};
 
 } // namespace feedhold::rules::length_offset_of_other_tool

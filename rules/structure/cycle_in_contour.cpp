@@ -1,4 +1,5 @@
-// cycle-in-contour: a second `G71`, a call by `M98`, or `G28`, between the blocks that P and Q of a contour cycle name.
+// cycle-in-contour: a second `G71`, a call by `M98`, `G28`, or another tool, between the blocks that P and Q of a
+// contour cycle name.
 #include "findings/rule/rule.h"
 
 #include "rules/structure/structure_view.h"
@@ -20,6 +21,8 @@ const Word *refusedIn(BlockId block, const FileContext &context) {
                                    CodeAction::ThreadCycle,   CodeAction::ThreadPasses,  CodeAction::FaceGroove,
                                    CodeAction::DiameterGroove};
   for (const Word &word : context.tree.wordsOf(block)) {
+    if (word.address() == 'T' && word.isNumber() && !word.number().isZero())
+      return &word;
     const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;
     if (code && (std::ranges::find(kRoles, code->role) != kRoles.end() ||
                  std::ranges::find(kActions, code->action) != kActions.end()))
@@ -62,7 +65,9 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
          .span = *stranger,
          .labels = {{context.tree.blocks[contour.cycle->block].span(),
                      fmt::format("its contour is lines {} to {}", lineOf(contour.first), lineOf(contour.last))}},
-         .notes = {"a contour consists of moves only: the control stops when it reads the contour",
+         .notes = {context.text(*stranger).front() == 'T' || context.text(*stranger).front() == 't'
+                       ? "roughing passes over the tool change, and the finishing cycle turns the turret in the contour"
+                       : "a contour consists of moves only: the control stops when it reads the contour",
                    "close the first contour before it, or correct P and Q"}});
   }
 }
@@ -72,7 +77,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 extern const Rule cycleInContour;
 const Rule cycleInContour{
     .info = {"cycle-in-contour", Category::Structure, Severity::Error,
-             "Reports a cycle, a call by `M98`, a reference return or another code that is no part of a "
+             "Reports a cycle, a call by `M98`, a reference return, a tool or another code that is no part of a "
              "contour between the blocks that P and Q of a contour cycle name."},
     .hooks = {.program = check}};
 

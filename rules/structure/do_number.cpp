@@ -1,5 +1,5 @@
 // do-number: `DO4`, `DO#1`, `DO` alone.
-#include "findings/rule/rule.h"
+#include "rules/structure/structure_view.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,6 +12,12 @@ std::string stops(const FileContext &context) {
 }
 
 void checkMissing(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (const auto word = endWhileAt(context, issue.span)) {
+    reporter.report({.message = fmt::format("{} ends no loop on this control", context.quoted(*word)),
+                     .span = *word,
+                     .notes = {stops(context), "write `DO1` behind the condition, and `END1` here"}});
+    return;
+  }
   reporter.report({.message = fmt::format("{} has no loop number", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {stops(context), "write the number: `DO1` .. `END1`; DO and END are paired by it"}});

@@ -100,6 +100,18 @@ bool hasCondition(const FileContext &context, const Loop &loop) {
   return std::holds_alternative<While>(context.tree.statements[loop.doStatement].node);
 }
 
+std::optional<Span> endWhileAt(const FileContext &context, Span keyword) {
+  constexpr std::string_view kWord = "ENDWHILE";
+  for (const std::uint32_t before : {0U, 3U}) { // at END, or at WHILE
+    if (keyword.begin < before || keyword.begin - before + kWord.size() > context.source.text().size())
+      continue;
+    const Span word{keyword.begin - before, keyword.begin - before + static_cast<std::uint32_t>(kWord.size())};
+    if (toUpper(context.text(word)) == kWord)
+      return word;
+  }
+  return std::nullopt;
+}
+
 IfStructures ifStructures(const FileContext &context, ProgramId id) {
   const Program &program = context.model.programs[id];
   IfStructures result;

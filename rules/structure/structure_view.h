@@ -60,6 +60,9 @@ bool isMotionCodeWithLetter(const FileContext &context, BlockId block, Span jump
 /// A DO that follows a WHILE.
 bool hasCondition(const FileContext &context, const Loop &loop);
 
+/// The `ENDWHILE` of which the keyword at the span is a part: one word of other languages, and no END and WHILE.
+std::optional<Span> endWhileAt(const FileContext &context, Span keyword);
+
 /// `IF [..] THEN` at the end of a block, and the ELSE, ELSEIF and ENDIF that belong to it.
 struct IfLines {
   StatementId head;

@@ -1,5 +1,5 @@
 // while-without-condition: `WHILE DO1`.
-#include "findings/rule/rule.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@ namespace feedhold::rules::while_without_condition {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (endWhileAt(context, issue.span))
+    return; // `do-number` says so
   reporter.report({.message = "this WHILE has no condition",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WhileFormat)),

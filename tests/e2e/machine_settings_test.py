@@ -43,6 +43,13 @@ class MachineSettings(Scratch):
         _, alone = self.report("--dialect", "fanuc-30i", "nc/O1002.nc")
         self.assertIn("number-without-point", alone)
 
+    def test_a_short_program_counts_as_its_writer_does(self):
+        short = "%\nO1000\nG90G54\nG0X55Z5\nG1X-2.F0.2\nZ{depth}\nG0X60\nM30\n%\n"
+        self.write("half/O1000.nc", short.format(depth="-40.0"))
+        self.assertEqual([row["line"] for row in self.report("--dialect", "fanuc-30i-lathe", "half")[0]], ["dpi = true"])
+        self.write("few/O1000.nc", short.format(depth="-40.\nX50.\nZ-60.\nX54."))
+        self.assertEqual(self.report("--dialect", "fanuc-30i-lathe", "few")[0], [])
+
     def test_least_increments_are_no_calculator(self):
         self.shop(CALCULATOR.replace("X{n}", "X{n}000"), 1)
         text = "%\nO1000\nG90G54\n" + "".join(f"G0X{n}000Z-{n}500\n" for n in range(1, 20)) + "M30\n%\n"

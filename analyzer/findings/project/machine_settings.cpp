@@ -20,8 +20,9 @@ namespace {
 // Evidence that a slip, or a slip and its copy, does not reach.
 constexpr std::size_t kFewestLengths = 20; // without a point
 constexpr std::size_t kFewestOfNearlyAll = 10;
-constexpr std::size_t kShare = 5;    // one of so many lengths has no point; one of so many of nearly all has one
-constexpr Decimal kLongest(1000, 0); // mm: a machinist who means least increments writes more
+constexpr std::size_t kFewestOfHalf = 3; // of whole lengths
+constexpr std::size_t kShare = 5;        // one of so many lengths has no point; one of so many of nearly all has one
+constexpr Decimal kLongest(1000, 0);     // mm: a machinist who means least increments writes more
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kFewestFiles = 2;
 constexpr std::uint32_t kFirstSystemVariable = 1000;
@@ -60,11 +61,12 @@ template <typename Visit> void forEachBlock(const Machine &machine, Visit visit)
 
 /// Calculator-type decimal point input: `X32` is 32 mm.
 std::optional<Found> inferDpi(const Machine &machine, Switches &switches) {
-  std::size_t all = 0, without = 0, isLong = 0;
+  std::size_t all = 0, without = 0, wholeWith = 0, isLong = 0;
   for (const auto &file : machine.files) {
     const WrittenLengths lengths = lengthsOf(file->tree, *file->dialect);
     all += lengths.withPoint + lengths.withoutPoint.size();
     without += lengths.withoutPoint.size();
+    wholeWith += lengths.wholeWithPoint;
     isLong += static_cast<std::size_t>(
         std::count_if(lengths.withoutPoint.begin(), lengths.withoutPoint.end(), [&](WordId id) {
           const Decimal value = file->tree.words[id].number();
@@ -72,7 +74,10 @@ std::optional<Found> inferDpi(const Machine &machine, Switches &switches) {
         }));
   }
   const bool areNearlyAll = without >= kFewestOfNearlyAll && (all - without) * kShare <= all;
-  const bool isHabit = areNearlyAll || (without >= kFewestLengths && without * kShare >= all);
+  // Fractions need their point either way: whoever leaves it out of every other whole number does not count in
+  // increments, also in a short program.
+  const bool areHalf = without >= kFewestOfHalf && without >= wholeWith && without * kShare >= all;
+  const bool isHabit = areNearlyAll || areHalf || (without >= kFewestLengths && without * kShare >= all);
   if (switches.dpi != Switch::Unknown || !isHabit || isLong * kShare > without)
     return std::nullopt;
   switches.dpi = Switch::On;

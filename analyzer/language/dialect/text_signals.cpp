@@ -126,7 +126,11 @@ std::string_view descriptionOf(TextSignal signal) {
 namespace {
 
 /// A loop without a number is written by beginners of Macro B, too: it tells of C operators only beside one of them.
+/// A loop with a number is Macro B where a condition is, too, however others are written.
 void weighLoops(TextScan &scan) {
+  if (scan.count(TextSignal::NumberedLoop) != 0 && scan.count(TextSignal::WordRelation) != 0)
+    for (const TextSignal mark : {TextSignal::CLikeOperator, TextSignal::BareCondition})
+      scan.counts[static_cast<std::size_t>(mark)] = 0;
   if (scan.count(TextSignal::CLikeOperator) == 0 && scan.count(TextSignal::BareCondition) == 0 &&
       scan.count(TextSignal::EdingStatement) == 0)
     scan.counts[static_cast<std::size_t>(TextSignal::LoneEndWhile)] = 0;
