@@ -16,6 +16,13 @@ namespace {
 /// `X?` is how templates mark a number to be filled in.
 bool isPlaceholder(std::string_view text) { return trimmed(text).find_first_not_of('?') == std::string_view::npos; }
 
+/// `&HE:%` in the first line: what a tape has in front of its `%` is passed over.
+bool isTapeLeader(const SyntaxIssue &issue, const FileContext &context) {
+  const std::string_view text = context.source.text();
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  return issue.span.end < line.size() && trimmed(line).ends_with('%');
+}
+
 constexpr std::array<std::string_view, 15> kOWords = {"sub",    "endsub", "call",      "return", "if",
                                                       "elseif", "else",   "endif",     "while",  "endwhile",
                                                       "do",     "repeat", "endrepeat", "break",  "continue"};
@@ -222,7 +229,7 @@ void reportProgramNumber(const SyntaxIssue &issue, const FileContext &context, c
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  if (isPlaceholder(context.text(issue.span)))
+  if (isPlaceholder(context.text(issue.span)) || isTapeLeader(issue, context))
     return;
   if (const auto mark = conflictMarkAt(issue, context)) {
     if (*mark == 0)

@@ -46,8 +46,11 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
                               context.quoted(number->span()), context.quoted(extended->span())),
        .span = word.span(),
        .labels = {{extended->span(), "the extended work offset"}},
-       .notes = {"many controls ignore this P: the part is cut at the first work offset",
-                 fmt::format("write {} if the extended offset is meant", context.quoted(extended->span()))}});
+       .notes = {
+           context.dialect.hasFanucParameters
+               ? "older controls, and those without the option, ignore this P: the part is cut at the first work offset"
+               : "many controls ignore this P: the part is cut at the first work offset",
+           fmt::format("write {} if the extended offset is meant", context.quoted(extended->span()))}});
 }
 
 } // namespace

@@ -46,9 +46,11 @@ void checkFraction(const FlowFacts &facts, const FileContext &context, const Rep
     if (!facts.isReached(node) || !std::holds_alternative<ExecuteWords>(facts.node(node).instruction))
       continue;
     const BlockId block = facts.node(node).block;
-    const bool usesOffset = findAction(context.tree, block, context.dialect,
-                                       {CodeAction::CompensationLeft, CodeAction::CompensationRight,
-                                        CodeAction::LengthPlus, CodeAction::LengthMinus}) != nullptr;
+    const Word *code = findAction(
+        context.tree, block, context.dialect,
+        {CodeAction::CompensationLeft, CodeAction::CompensationRight, CodeAction::LengthPlus, CodeAction::LengthMinus});
+    // G41.1 and G42.1 of LinuxCNC take the diameter itself.
+    const bool usesOffset = code && code->tenths() != 411 && code->tenths() != 421;
     for (const Word &word : usesOffset ? context.tree.wordsOf(block) : std::span<const Word>{}) {
       if ((word.address() != 'D' && word.address() != 'H') || word.form() != WordForm::Expression)
         continue;

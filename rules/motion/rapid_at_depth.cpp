@@ -1,5 +1,5 @@
 // rapid-at-depth: G00 in the plane at the depth of the last cut, then a feed to the depth that the tool already has, or
-// by a distance still deeper.
+// by a distance still deeper; a drilling cycle that goes to its hole from there.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::initializer_list<CodeAction> kFeeding = {CodeAction::Linear, CodeAction::ArcClockwise,
                                                         CodeAction::ArcCounterclockwise};
+
+constexpr std::initializer_list<CodeAction> kDrilling = {
+    CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck,    CodeAction::CycleChipBreak,
+    CodeAction::CycleTap,   CodeAction::CycleBore,  CodeAction::CycleBoreStop};
 
 /// Follows the depth through blocks that stand one behind the other.
 class RapidAtDepth final : public FlowRule {
@@ -36,6 +40,11 @@ public:
       plunged_.reset();
     if (words.empty())
       return afterNoMove(node);
+    if (const Word *cycle = view_.findAction(node, kDrilling)) {
+      if (depth_ && !isIncremental_ && drills(node, state) && leavesPlace(words))
+        cycles_.emplace(node, Cycle{cycle, *depthAt_});
+      return forget();
+    }
     const auto depth = std::ranges::find(words, 'Z', [](const Word *word) { return word->address(); });
     const Word *level = depth == words.end() ? nullptr : *depth;
     const bool isIncremental = view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
@@ -58,6 +67,13 @@ public:
   }
 
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, cycle] : cycles_)
+      reporter.report({.message = fmt::format("{} goes to its first hole at rapid at the depth of the last cut",
+                                              context.quoted(cycle.code->span())),
+                       .span = cycle.code->span(),
+                       .labels = {{view_.modalMotionWords(cycle.cut).front()->span(), "the last depth"}},
+                       .notes = {"a cycle moves in the plane before it goes to its R: the tool goes through the part",
+                                 "retract in Z before this block"}});
     for (const auto &[rapid, plunge] : behindPlunge_) {
       const Word &first = *view_.modalMotionWords(rapid).front();
       if (!found_.contains(rapid))
@@ -109,6 +125,23 @@ private:
       return word->isNumber() && known != place_.end() && known->second == word->number();
     });
   }
+  /// In absolute coordinates, in XY, and not only stored: K0, L0.
+  bool drills(NodeId node, const AbstractState &state) const {
+    const auto words = view_.wordsOf(node);
+    const bool isStored = std::ranges::any_of(words, [](const Word *word) {
+      return (word->address() == 'K' || word->address() == 'L') && !(word->isNumber() && !word->number().isZero());
+    });
+    return !isStored && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) &&
+           !view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ});
+  }
+  /// In the plane, by a coordinate that the last blocks have given otherwise.
+  bool leavesPlace(const std::vector<const Word *> &words) const {
+    return std::ranges::any_of(words, [&](const Word *word) {
+      const auto known = place_.find(word->address());
+      return (word->address() == 'X' || word->address() == 'Y') && word->isNumber() && known != place_.end() &&
+             known->second != word->number();
+    });
+  }
   /// A code that moves by itself, changes the tool or its length, or the coordinates.
   void afterNoMove(NodeId node) {
     if (!view_.axisWords(node).empty() ||
@@ -137,14 +170,20 @@ private:
       plunged_ = node;
     if (level)
       level_ = level->number();
-    if (level)
+    if (level) {
       depth_ = level->number().isNegative() ? std::optional(level->number()) : std::nullopt;
+      depthAt_ = node;
+    }
   }
   bool isInCycle(const AbstractState &state) const {
     const auto codes = view_.inForce(state, ModalKind::Cycle);
     return codes && (codes->codes() & ~view_.modes().maskOf(ModalKind::Cycle, {CodeAction::CycleOff})) != 0;
   }
 
+  struct Cycle {
+    const Word *code;
+    NodeId cut; // the feed to the depth
+  };
   /// The feed behind the rapid move.
   struct Plunge {
     NodeId node;
@@ -159,9 +198,11 @@ private:
   std::optional<NodeId> plunged_; // the last move: fed down from above the part
   std::map<NodeId, NodeId> behindPlunge_;
   std::optional<Decimal> depth_;  // to which, or by which, the tool was fed, and where it is
+  std::optional<NodeId> depthAt_; // by which block
   std::optional<NodeId> rapid_;   // the last block, at that depth
   std::map<char, Decimal> place_; // coordinates of the last blocks, by axis
   std::map<NodeId, Plunge> found_;
+  std::map<NodeId, Cycle> cycles_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -174,7 +215,7 @@ extern const Rule rapidAtDepth;
 const Rule rapidAtDepth{
     .info = {"rapid-at-depth", Category::Motion, Severity::Warning,
              "Reports a rapid move in the plane at the depth of the last cut, when the next block feeds `Z` to the "
-             "same depth, or deeper by a distance."},
+             "same depth, or deeper by a distance, and a drilling cycle that begins there."},
     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::rapid_at_depth

@@ -8,7 +8,8 @@
 namespace feedhold::rules::code_behind_abort {
 namespace {
 
-/// A call, or a code that does something: a `return` or `M2` behind the abort is belt and braces.
+/// A call, or a code that does something: a `return` or `M2` behind the abort is belt and braces, and a dwell gives the
+/// remark the time to be read.
 bool doesSomething(BlockId block, const FileContext &context) {
   if (std::ranges::any_of(context.tree.statementsOf(block), [](const Statement &statement) {
         const auto *word = std::get_if<OWord>(&statement.node);
@@ -18,7 +19,7 @@ bool doesSomething(BlockId block, const FileContext &context) {
   return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
     const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
     return code && code->role != CodeRole::ProgramEnd && code->role != CodeRole::Return &&
-           code->role != CodeRole::ProgramStop;
+           code->role != CodeRole::ProgramStop && code->role != CodeRole::Dwell;
   });
 }
 

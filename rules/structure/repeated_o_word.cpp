@@ -53,7 +53,9 @@ void check(const FileContext &context, const Reporter &reporter) {
          .notes = {isSure ? "the interpreter stops here: duplicate O-word label"
                           : "the interpreter stops when one run meets both: duplicate O-word label",
                    "give each o-word block its own number"}},
-        isSure ? Severity::Error : Severity::Warning);
+        isSure                                     ? Severity::Error
+        : repetition.kind == RepeatedLabel::Rarely ? Severity::Info
+                                                   : Severity::Warning);
   }
 }
 

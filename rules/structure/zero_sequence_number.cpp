@@ -3,8 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold::rules::zero_sequence_number {
 namespace {
+
+/// A jump of the file wants to come to it; numbers that only count blocks do no harm.
+bool isJumpedTo(const FileContext &context) {
+  return std::ranges::any_of(context.model.jumps,
+                             [&](const Jump &jump) { return jump.number && jump.number->isZero(); });
+}
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.sequenceZero || word.integer() != 0u || context.tree.blocks[block].has(Block::kData))
@@ -14,7 +22,8 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
     return;
   reporter.report({.message = fmt::format("{} is not a sequence number; they begin at 1", context.quoted(word.span())),
                    .span = word.span(),
-                   .notes = {"no jump and no sequence number search finds this block"}});
+                   .notes = {"no jump and no sequence number search finds this block"}},
+                  isJumpedTo(context) ? Severity::Warning : Severity::Info);
 }
 
 } // namespace

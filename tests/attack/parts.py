@@ -14,7 +14,8 @@ PARTS = {
     "@OFFSET": r"@OFFSET G5", "@LENGTH": r"@LENGTH", "@MACHINE": r"@MACHINE", "G43": r"G43", "G44": r"G44", "G49": r"^[^(\n]*G49",
    
     "mirrors": r"G51\.1", "rotation": r"G68", "scaling": r"G51[XYZP]", "cycles": r"G8[1-59]|G73",
-    "G52": r"G52", "G92": r"G92", "G10": r"G10L2", "G54 to G59": r"^G5[4-9]|[^.\d]G5[5-9]", "G28": r"G28", "G53": r"G53",
+    "G52": r"G52", "G92": r"G92", "G10": r"G10L2", "G54 to G59": r"^G5[4-9]|[^.\d]G5[5-9]", "G54.1": r"G54\.1|G154", "G28": r"G28",
+    "G53": r"G53",
     "arcs by R": r"G[23]X[^\n]*R", "arcs by I, J, K": r"G[23]X[^\n]*[IJK]", "G91": r"G91", "inches": r"G20",
     "o-word sub": r"o<?\w+>? sub", "o-word call": r"o<?\w+>? call", "o-word repeat": r"o\d+ repeat", "o-word while": r"o\d+ while",
     "o-word if": r"o\d+ if", "named variables": r"#<",

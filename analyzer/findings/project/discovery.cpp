@@ -127,9 +127,11 @@ private:
     const fs::path &path = entry.path();
     std::error_code ignored; // what cannot be asked for its kind is no regular file for us
     const std::string name = pathText(path.filename());
-    if (name.starts_with('.') || (config != nullptr && matchesAny(config->exclude, *config, path)))
+    const bool isFolder = entry.is_directory(ignored);
+    if ((isFolder ? name.starts_with('.') : isHiddenFileName(name)) ||
+        (config != nullptr && matchesAny(config->exclude, *config, path)))
       return;
-    if (entry.is_directory(ignored)) {
+    if (isFolder) {
       if (!entry.is_symlink(ignored) && depth_ == Depth::AllBelow)
         walk(path);
       return;
@@ -167,6 +169,13 @@ private:
 };
 
 } // namespace
+
+bool isHiddenFileName(std::string_view name) {
+  if (!name.starts_with('.'))
+    return false;
+  const bool isBeside = name.size() < 2 || std::string_view("#~._").find(name[1]) != std::string_view::npos;
+  return isBeside || name.rfind('.') == 0 || kindOfFileName(name) != FoundBy::Extension;
+}
 
 std::optional<FoundBy> kindOfFileName(std::string_view name) {
   const std::size_t point = name.rfind('.');

@@ -39,6 +39,9 @@ std::vector<FoundFile> discoverFolder(const std::filesystem::path &folder, Confi
 
 /// How a file of this name in a folder is looked at; absent: its extension is one of another format.
 std::optional<FoundBy> kindOfFileName(std::string_view name);
+/// It begins with a dot, and is no program with the extension of one: `.canal_face.ngc` is no hidden file, those that
+/// editors and systems put beside a program are (`.#O1000.nc`, `._O1000.nc`).
+bool isHiddenFileName(std::string_view name);
 
 /// Whether a file that was skipped is one of the `named` only because somebody, such as a hook, names all files that
 /// changed: by its name it may be a program or anything else.

@@ -24,7 +24,7 @@ Folder programsIn(const fs::path &folder, const std::shared_ptr<const OpenTexts>
        at.increment(error)) {
     std::error_code ignored;
     const std::string name = pathText(at->path().filename());
-    if (!name.starts_with('.') && kindOfFileName(name) && at->is_regular_file(ignored))
+    if (!isHiddenFileName(name) && kindOfFileName(name) && at->is_regular_file(ignored))
       names.push_back(folder / name);
   }
   std::sort(names.begin(), names.end());

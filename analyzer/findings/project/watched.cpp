@@ -2,6 +2,7 @@
 
 #include "base/source/path_text.h"
 #include "findings/project/config.h"
+#include "findings/project/discovery.h"
 
 namespace feedhold {
 
@@ -23,11 +24,11 @@ void addFolder(const fs::path &folder, Depth depth, Stamps &stamps) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (pathText(at->path().filename()).starts_with('.'))
-      continue;
-    if (at->is_regular_file(ignored))
+    const std::string name = pathText(at->path().filename());
+    if (at->is_regular_file(ignored) && !isHiddenFileName(name))
       addFile(at->path(), stamps);
-    else if (depth == Depth::AllBelow && at->is_directory(ignored) && !at->is_symlink(ignored))
+    else if (depth == Depth::AllBelow && !name.starts_with('.') && at->is_directory(ignored) &&
+             !at->is_symlink(ignored))
       addFolder(at->path(), depth, stamps);
   }
 }

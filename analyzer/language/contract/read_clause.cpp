@@ -348,7 +348,7 @@ private:
         reader_.expected("`PRESERVED`");
       ModalPreserved kept;
       if (reader_.take("EXCEPT")) {
-        while (const std::optional<char> address = reader_.takeLetter("FSTDHEB"))
+        while (const std::optional<char> address = reader_.takeLetter("FSTDHEBP"))
           kept.except += *address;
         if (kept.except.empty())
           reader_.expected("addresses, such as `EXCEPT F S`");

@@ -13,6 +13,22 @@ namespace {
 constexpr std::string_view kOffsetAxes = "XYZABCUVW"; // in the order of their variables
 std::uint32_t indexOfAxis(char letter) { return static_cast<std::uint32_t>(kOffsetAxes.find(letter)); }
 
+/// `G54.1 P3`, or `G110` alone; absent: the clause has an issue.
+std::optional<std::uint32_t> firstOfAdditional(ClauseReader &reader, const ContractReading &reading, const Code &code) {
+  if (const auto own = additionalOffsetOf(reading.dialect, code))
+    return additionalWorkOffset(reading.dialect, *own);
+  const Span span = reader.ahead();
+  if (!reader.takeAddress('P')) {
+    reader.expected("`P` and the number of the additional work offset, such as `P1`");
+    return std::nullopt;
+  }
+  const std::uint32_t number = reader.integer("the number of the additional work offset");
+  const auto first = additionalWorkOffset(reading.dialect, number);
+  if (!reader.failed() && !first)
+    reader.fail(ContractIssueKind::Code, span, "this control has no additional work offset of this number");
+  return first;
+}
+
 /// The variable of the external work offset's X, or of the one that a code chooses; absent: the clause has an issue.
 std::optional<std::uint32_t> firstOfWorkOffset(ClauseReader &reader, const ContractReading &reading) {
   if (reader.take("EXT")) {
@@ -27,6 +43,9 @@ std::optional<std::uint32_t> firstOfWorkOffset(ClauseReader &reader, const Contr
   const ExpressionId number = reader.value("the number of the code, such as `G54`");
   const std::optional<Decimal> value = literalValue(reading.result.tree, number);
   const auto tenths = value ? Word::number('G', *value, span, 0).tenths() : std::nullopt;
+  const Code *code = tenths ? findGCode(reading.dialect, *tenths) : nullptr;
+  if (!reader.failed() && code && code->action == CodeAction::ExtendedWorkOffset)
+    return firstOfAdditional(reader, reading, *code);
   const std::optional<std::uint32_t> before = tenths ? workOffsetsBefore(reading.dialect, *tenths) : std::nullopt;
   if (!reader.failed() && !before)
     reader.fail(ContractIssueKind::Code, span, "it is none of the work offsets of this control from G54 on");

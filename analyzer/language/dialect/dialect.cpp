@@ -116,6 +116,39 @@ std::optional<std::uint32_t> workOffsetsBefore(const Dialect &dialect, std::uint
       dialect.gCodes, [&](const Code &each) { return each.action == CodeAction::WorkOffset && each.tenths < tenths; }));
 }
 
+const Code *additionalOffsetCode(const Dialect &dialect) {
+  const Code *last = nullptr;
+  for (const Code &code : dialect.gCodes)
+    if (code.action == CodeAction::ExtendedWorkOffset && (!last || last->tenths < code.tenths))
+      last = &code;
+  return last;
+}
+
+std::optional<std::uint32_t> additionalOffsetOf(const Dialect &dialect, const Code &code) {
+  if (code.action != CodeAction::ExtendedWorkOffset || code.tenths == additionalOffsetCode(dialect)->tenths)
+    return std::nullopt;
+  return 1 + static_cast<std::uint32_t>(std::ranges::count_if(dialect.gCodes, [&](const Code &each) {
+           return each.action == CodeAction::ExtendedWorkOffset && each.tenths < code.tenths;
+         }));
+}
+
+std::optional<std::uint32_t> additionalWorkOffset(const Dialect &dialect, std::uint32_t number) {
+  struct Row {
+    std::uint32_t first, most;
+  };
+  constexpr std::uint32_t kAxes = 9;
+  constexpr Row kRows[] = {{7001, 48}, {14001, 300}}; // the second where the numbers from the first on are used up
+  for (const auto &[first, most] : kRows) {
+    if (number == 0 || number > most)
+      continue;
+    const std::uint32_t variable = first + kWorkOffsetStride * (number - 1);
+    const VariableRange *range = findVariable(dialect, variable);
+    if (range && range->role == VariableRole::AdditionalWorkOffset && variable + kAxes - 1 <= range->last)
+      return cellOf(dialect, variable);
+  }
+  return std::nullopt;
+}
+
 const PredefinedName *findPredefinedName(const Dialect &dialect, std::uint32_t number) {
   const bool isOne = isPredefinedName(number) && number - kFirstPredefinedName < dialect.predefinedNames.size();
   return isOne ? &dialect.predefinedNames[number - kFirstPredefinedName] : nullptr;

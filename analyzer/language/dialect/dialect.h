@@ -483,6 +483,13 @@ const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role);
 inline constexpr std::uint32_t kFirstWorkOffset = 5201, kWorkOffsetStride = 20;
 /// How many work offsets the control lists before the one that a G code chooses: 0 for G54; absent: it chooses none.
 std::optional<std::uint32_t> workOffsetsBefore(const Dialect &dialect, std::uint16_t tenths);
+/// The code by which P chooses an additional work offset, G54.1 or G154: it stands behind those that choose one by
+/// themselves, such as G110 of Haas.  Null where the control has none.
+const Code *additionalOffsetCode(const Dialect &dialect);
+/// The number of the additional work offset that the code chooses by itself: 1 for G110.  Absent: P tells it.
+std::optional<std::uint32_t> additionalOffsetOf(const Dialect &dialect, const Code &code);
+/// The cell of X of the additional work offset `number` (from 1); absent: the control has no such one.
+std::optional<std::uint32_t> additionalWorkOffset(const Dialect &dialect, std::uint32_t number);
 /// The number by which the state keeps the cell that a variable names: one number for all its names.
 std::uint32_t cellOf(const Dialect &dialect, std::uint32_t number);
 /// Cells that may be the same one as this, or not.

@@ -53,7 +53,7 @@ private:
 
   void take(ConstructId construct, LabelRepetition repetition) {
     const auto [known, isNew] = found_.try_emplace(construct, repetition);
-    if (!isNew && known->second.kind == RepeatedLabel::Perhaps && repetition.kind == RepeatedLabel::Surely)
+    if (!isNew && known->second.kind < repetition.kind)
       known->second = repetition;
   }
 
@@ -90,11 +90,15 @@ private:
     const auto isLoop = [this](const Around &each) { return kindOf(each.construct) != OWordKind::If; };
     const ProgramId program = headOf(head.construct).program;
     const bool isCalled = program != ProgramId(0) || model_.programs[program].returns;
-    const bool comesAgain = isCalled || std::any_of(here.begin(), parted, isLoop);
+    const bool isInLoop = std::any_of(here.begin(), parted, isLoop);
     const bool isInOtherBranch =
         common < here.size() && common < there.size() && here[common].construct == there[common].construct;
     const bool isLater = headWordOf(other.construct) < headWordOf(head.construct);
-    return comesAgain || (isLater && !isInOtherBranch) ? std::optional(RepeatedLabel::Perhaps) : std::nullopt;
+    if (isInLoop || (isLater && !isInOtherBranch))
+      return RepeatedLabel::Perhaps;
+    if (!isCalled)
+      return std::nullopt;
+    return isInOtherBranch ? RepeatedLabel::Rarely : RepeatedLabel::Perhaps;
   }
 
   const ProgramModel &model_;

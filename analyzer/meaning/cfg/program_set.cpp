@@ -12,6 +12,13 @@ namespace feedhold {
 
 namespace {
 
+bool mayBeginCompensation(const Word &word, const Dialect &dialect) {
+  if (word.address() != 'G' || !word.isCode())
+    return false;
+  const Code *code = word.isNumber() ? codeOf(word, dialect) : nullptr;
+  return !word.isNumber() || (code != nullptr && beginsCompensation(code->action));
+}
+
 /// The names of `SETVN 500[ABC,DEF]` with the variables that they name.
 void addNamesOf(const ProgramFile &file, const NameVariables &statement,
                 std::vector<std::pair<std::string, std::uint32_t>> &named) {
@@ -97,6 +104,8 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
   const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
   std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
   sortUnique(names_);
+  for (const ProgramFile &each : files_)
+    findMeanings(each);
 }
 
 bool ProgramSet::isWrittenInCalled(std::uint32_t variable) const {
@@ -115,6 +124,9 @@ void ProgramSet::findWritten(const ProgramFile &file) {
 }
 
 void ProgramSet::findUses(const ProgramFile &file) {
+  mayCompensate_ = mayCompensate_ || std::ranges::any_of(file.tree->words, [&](const Word &word) {
+                     return mayBeginCompensation(word, *file.dialect);
+                   });
   for (const VariableUse &use : file.model->variables) {
     UseCounts &counts = use.number ? uses_[*use.number] : unnumbered_;
     ++(use.write ? counts.writes : counts.reads);
@@ -257,7 +269,20 @@ bool ProgramSet::startsInside(FileId id, const Call &call) const {
 }
 
 std::optional<std::uint32_t> ProgramSet::variableOf(FileId id, Span span) const {
-  const ProgramFile &from = file(id);
+  const std::vector<NamedPlace> &places = places_[id.index()];
+  const auto known = std::ranges::lower_bound(places, span.begin, {}, &NamedPlace::begin);
+  return known != places.end() && known->begin == span.begin ? known->variable : meaningOf(file(id), span);
+}
+
+void ProgramSet::findMeanings(const ProgramFile &file) {
+  std::vector<NamedPlace> &places = places_.emplace_back();
+  for (const Expression &expression : file.tree->expressions)
+    if (const auto *named = std::get_if<NamedVariable>(&expression.node))
+      places.push_back({named->name.begin, meaningOf(file, named->name)});
+  std::ranges::sort(places, {}, &NamedPlace::begin);
+}
+
+std::optional<std::uint32_t> ProgramSet::meaningOf(const ProgramFile &from, Span span) const {
   const std::string name = comparedName(from.source->text(span));
   if (const std::optional<std::uint32_t> system = systemVariableOf(*from.dialect, name))
     return system;

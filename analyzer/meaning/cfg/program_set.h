@@ -100,6 +100,8 @@ public:
   const UnnumberedUses &unnumberedUses() const { return unnumbered_; }
   /// Some program in the folder of the file may have G91.
   bool mayBeIncrementalInFolderOf(FileId file) const;
+  /// Some program may begin cutter compensation: it has G41 or its kin, or a computed G code.
+  bool mayCompensate() const { return mayCompensate_; }
   /// What the modal calls of all programs call.
   const std::vector<Callee> &modalCallees() const { return modalCallees_; }
   /// Some program begins a modal call.
@@ -132,7 +134,15 @@ public:
   std::vector<std::uint32_t> localNames() const;
 
 private:
+  /// A name where it stands in the text of its file, and what it means.
+  struct NamedPlace {
+    std::uint32_t begin;
+    std::optional<std::uint32_t> variable;
+  };
+
   bool hasNameFrom(std::uint32_t variable, std::string_view beginning) const;
+  std::optional<std::uint32_t> meaningOf(const ProgramFile &from, Span name) const;
+  void findMeanings(const ProgramFile &file);
   void findNames(const ProgramFile &file);
   void findModalCallees(const ProgramFile &from);
   void findWritten(const ProgramFile &file);
@@ -150,12 +160,14 @@ private:
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_; // sorted
   bool hasModalCalls_ = false;
+  bool mayCompensate_ = false;
   std::vector<std::uint32_t> written_; // sorted
   std::unordered_map<std::uint32_t, UseCounts> uses_;
   UnnumberedUses unnumbered_;
   const Dialect *naming_ = nullptr; // that of the first file whose control has named parameters
   std::vector<std::string> names_;  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
+  std::vector<std::vector<NamedPlace>> places_; // by file, in order of the text: runs ask at each step
 };
 
 } // namespace feedhold

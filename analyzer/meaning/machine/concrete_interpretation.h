@@ -188,6 +188,11 @@ public:
     notes_.push_back(reason);
     passedUnmodelled_ = passedUnmodelled_ || !stopped_;
   }
+  /// Controls read the block differently: the run goes on with one reading, and shows nothing of the others.
+  void passOpenReading(std::string_view reason) {
+    notes_.push_back(reason);
+    passedUnmodelled_ = passedUnmodelled_ || stopped_.kind == Stop::None;
+  }
   void unlistedCode(State &, const CodeName &code, Span place) {
     if (takesCodesToReturn_)
       skipped_.push_back(textOf(code));

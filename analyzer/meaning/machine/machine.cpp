@@ -49,7 +49,7 @@ public:
 
   RunResult run() {
     while (!ended_) {
-      if (result_.steps == options_.fuel || result_.moves.size() >= options_.mostMoves)
+      if (result_.steps == options_.fuel || moveCount_ >= options_.mostMoves)
         endWithoutFuel();
       else
         one();
@@ -141,9 +141,11 @@ private:
     const bool refused = interpretation_.stopped().kind == ConcreteInterpretation::Stop::ControlAlarm;
     std::vector<Move<ConcreteValue>> moves = interpretation_.takeMoves();
     const std::size_t first = result_.moves.size();
-    if (!refused && !moves.empty()) // the control does not begin a block that it does not understand
+    const bool begins = !refused && !moves.empty(); // the control does not begin a block that it does not understand
+    moveCount_ += begins ? moves.size() : 0;
+    if (begins && options_.moves == RecordMoves::Yes)
       record(std::move(moves), here);
-    if (!refused && options_.cutter == CutterCompensation::Followed)
+    if (!refused && options_.cutter == CutterCompensation::Followed && options_.moves == RecordMoves::Yes)
       compensate(here, first);
     for (std::string &code : interpretation_.takeSkipped())
       result_.skipped.insert(std::move(code));
@@ -216,13 +218,15 @@ private:
     for (Move<ConcreteValue> &move : moves)
       result_.moves.push_back({move, unitInForce(), here, own, numbers(point.zero), numbers(point.machineZero),
                                isButForLength && point.lengthKnown, isButForLength, length,
-                               isFollowed && point.sameUnits});
+                               isFollowed && point.sameUnits && detail::workOffsetInForce(ctx)});
   }
-  /// G54.1 P, G154 P: its zero point, which nothing has given, is the operator's.  One that is in force from the start
-  /// is that of the coordinates of the start.
+  /// `G54.1` of which P is not known, or the way from or to one: where its zero point lies is the operator's.  One that
+  /// is in force from the start is that of the coordinates of the start.
   bool isInAdditionalSystem(StepContext<ConcreteInterpretation> &ctx) {
     StepContext<ConcreteInterpretation> atStart{interpretation_, entry_, programs_, ctx.file, modes_, ctx.block};
-    return !detail::workOffsetInForce(ctx) && detail::workOffsetInForce(atStart);
+    const bool isKnown = detail::workOffsetInForce(ctx).has_value();
+    return isKnown != detail::workOffsetInForce(atStart).has_value() ||
+           (!isKnown && !detail::hasSystemOfEntry(ctx, entry_));
   }
   LengthUnit unitInForce() {
     const auto ctx = context();
@@ -435,6 +439,7 @@ private:
   CutterPath<RunCutter> cutter_;
   std::map<double, std::optional<CutterOffset<double>>> otherOffsets_; // by D
   bool ended_ = false;
+  std::size_t moveCount_ = 0;
   bool wasInAdditional_ = false; // in the last block with moves (isInAdditionalSystem)
   bool wasLost_ = false;         // before the block: where the axes are was not known
 };

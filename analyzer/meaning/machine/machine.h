@@ -23,6 +23,9 @@ struct RunMoment {
 /// Whether the path of the tool's centre is computed under cutter compensation; else its moves are not of the tool.
 enum class CutterCompensation : std::uint8_t { NotFollowed, Followed };
 
+/// Movements are recorded, or only counted: where nobody asks for the path.
+enum class RecordMoves : std::uint8_t { No, Yes };
+
 /// The operator's switch: blocks with a `/` are executed or passed over.
 enum class BlockSkipSwitch : std::uint8_t { Off, On };
 
@@ -36,8 +39,9 @@ struct RunOptions {
   std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group and code in force, in place of power-on's
   /// What the run finds in place of the codes, words and shifts of power-on; then `start` is not looked at.
   std::optional<MachineState<ConcreteInterpretation>> state = std::nullopt;
-  std::uint64_t fuel = 10'000'000;   // instructions
-  std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
+  std::uint64_t fuel = 10'000'000;      // instructions
+  std::size_t mostMoves = 1'000'000;    // behind them the run ends as without fuel
+  RecordMoves moves = RecordMoves::Yes; // No: nor is cutter compensation followed
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   WordRounding words = WordRounding::Increment;
   NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
@@ -84,10 +88,10 @@ struct RunResult {
   std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed
   MachineState<ConcreteInterpretation> state;
-  std::vector<RecordedMove> moves;
-  std::vector<RunNote> notes;    // what was not followed, each once for a place
-  bool isLost = false;           // where X, Y or Z is at the end is not known: the state says one of many places
-  bool passedUnmodelled = false; // what is noted may have changed anything: another run may go on otherwise
+  std::vector<RecordedMove> moves; // RecordMoves::No: none
+  std::vector<RunNote> notes;      // what was not followed, each once for a place
+  bool isLost = false;             // where X, Y or Z is at the end is not known: the state says one of many places
+  bool passedUnmodelled = false;   // what is noted may have changed anything: another run may go on otherwise
   /// Names of missing programs that were called, and of codes that call them, and that were taken to return.
   std::set<std::string> skipped;
 };

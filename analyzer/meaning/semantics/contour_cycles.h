@@ -1,24 +1,28 @@
-// Contour cycles: G70 to G72 of lathes (G72 to G74 in G code system C).
+// Contour cycles: G70 to G73 of lathes (G72 to G75 in G code system C).
 //
 //   G71 U(d) R(e) ; G71 P(ns) Q(nf) U(u) W(w) F_      FANUC, two blocks; d and e in radius, u in diameter
 //   G71 P(ns) Q(nf) U(u) W(w) D(d) F_                 one block: Haas, older FANUC
 //   G70 P(ns) Q(nf)
+//   G73 U(i) W(k) R(n) ; G73 P(ns) Q(nf) U(u) W(w) F_  FANUC; i in radius
+//   G73 P(ns) Q(nf) U(u) W(w) I(i) K(k) D(n) F_        Haas
 //
 // G70 executes the blocks ns to nf once, and goes back to where it started at rapid.
 //
 // G71 reads them: from the start A to A', a move of X alone (type I), and from there the contour to B.  It goes from A
 // to C = A + (u, w), down by d at a time, along Z to the contour + (u, w), e away from it at 45 degrees, and back to
 // the Z of C at rapid; at last along the contour + (u, w), and back to A at rapid.  G72 the same with both axes
-// exchanged, and W(d) R(e) in its first block.  Behind the cycle the program goes on after nf.  Source: FANUC lathe
-// operator's manual, "multiple repetitive cycle", G70 to G72; Haas lathe operator's manual, G70 to G72.
+// exchanged, and W(d) R(e) in its first block.  G73 follows the contour + (u, w) n times, first shifted by (i, k) and
+// the last time where it is; before each pass it goes to A + (u, w), shifted as the pass is, at rapid.  Behind the
+// cycle the program goes on after nf.  Source: FANUC lathe operator's manual, "multiple repetitive cycle", G70 to G72;
+// Haas lathe operator's manual, G70 to G73.
 //
 // A run draws this where the contour rises from A' to B along both axes.  All else takes boxes: one corner is A or C,
 // whichever is further away from the contour along each axis, and e beyond it; each piece of the contour + (u, w) spans
 // a box with this corner.  A cut that begins between A or C and the contour lies in the box of the piece at which it
 // ends, whatever d is, and so does the way back from there by e.  A control keeps e from the last first block of any
 // program, so that without one above it the cycle is not followed.  Of one block a setting says e (Setting 73 of Haas):
-// it is taken to be no more than d.  Not followed: type II, G73, and contours with anything but straight lines, arcs
-// and F.
+// it is taken to be no more than d.  The box of a piece of G73 holds the piece at each shift.  Not followed: type II,
+// and contours with anything but straight lines, arcs and F.
 #pragma once
 
 #include "language/model/block_facts.h"
@@ -26,6 +30,8 @@
 #include "meaning/semantics/roughing.h"
 #include "meaning/semantics/turning_strokes.h"
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace feedhold::detail {
@@ -43,7 +49,7 @@ public:
   /// False: not followed.
   bool run() {
     if (action_ != CodeAction::FinishContour && !words_.find('P') && !words_.find('Q'))
-      return learnDepth();
+      return action_ == CodeAction::RepeatContour ? learnShift() : learnDepth();
     const auto contour = contourOfBlock();
     const auto group = context_.modes.groupOf(ModalKind::Motion);
     if (!contour || !group || !isReadable(*contour)) {
@@ -53,7 +59,7 @@ public:
     }
     if (action_ == CodeAction::FinishContour)
       return finish(*contour, *group);
-    const bool isFollowed = action_ != CodeAction::RepeatContour && rough(*contour);
+    const bool isFollowed = action_ == CodeAction::RepeatContour ? repeat(*contour) : rough(*contour);
     mayTakeModes(*contour, *group);
     return isFollowed;
   }
@@ -67,6 +73,15 @@ private:
         (back && strokes_.isNegative(back->value)))
       return false;
     strokes_.learn(action_, strokes_.length(isTurning ? 'U' : 'W'), strokes_.length('R'));
+    return true;
+  }
+  bool learnShift() {
+    endCycle(context_);
+    if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly("NGUWR"))
+      return false;
+    strokes_.learn(action_, strokes_.length('U'), strokes_.length('W'));
+    if (words_.find('U') || words_.find('W'))
+      state_.cycle.peck = count('R').value_or(interpretation_.vacant());
     return true;
   }
   /// The control executes a contour that is not read here, or one that is not known: codes, offsets, calls.
@@ -140,6 +155,93 @@ private:
     return true;
   }
 
+  // ---- the contour several times ----
+
+  struct Shift {
+    Value x; // in diameter
+    Value z;
+    std::optional<Value> passes;
+  };
+
+  bool repeat(const ContourBlocks &contour) {
+    const std::optional<Shift> shift = strokes_.hasOnly("NGPQUWIKDFSTM") ? shiftOfFirstPass() : std::nullopt;
+    if (!shift)
+      return false;
+    readAllowances();
+    if constexpr (!kHasMoves) {
+      strokes_.cutInBox(state_.position, state_.position);
+      return true;
+    } else {
+      const Moves moves = movesOf(contour);
+      return areKnown(moves) && (drawsStrokes(context_) ? drawPasses(moves, *shift) : repeatInBoxes(moves, *shift));
+    }
+  }
+  /// A number that is no length: as it is written.
+  std::optional<Value> count(char letter) const {
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (word.address() == letter && word.isNumber())
+        return interpretation_.literal(word.number());
+    return strokes_.length(letter);
+  }
+  /// Absent: FANUC keeps what an earlier program has said.
+  std::optional<Shift> shiftOfFirstPass() const {
+    const bool isOneBlock = words_.find('I') || words_.find('K') || words_.find('D');
+    if (isOneBlock && !context_.behaviour().oneBlockCycles)
+      return std::nullopt;
+    const auto x = isOneBlock ? strokes_.length('I') : strokes_.learned(state_.cycle.initial);
+    const auto z = isOneBlock ? strokes_.length('K') : strokes_.learned(state_.cycle.dwell);
+    const auto passes = isOneBlock ? count('D') : strokes_.learned(state_.cycle.peck);
+    return x && z ? std::optional(Shift{strokes_.twice(*x), *z, passes}) : std::nullopt;
+  }
+  void readAllowances() {
+    x_ = strokes_.length('U').value_or(context_.zero());
+    z_ = strokes_.length('W').value_or(context_.zero());
+  }
+  bool repeatInBoxes(const Moves &moves, const Shift &shift) {
+    for (const Move<Value> &move : moves)
+      if (isArc(move.kind) && !isQuarter(move))
+        return false;
+    const Point start = state_.position;
+    cutInShiftedBox(start, allowed(start), shift);
+    for (const Move<Value> &move : moves)
+      cutInShiftedBox(allowed(move.start), allowed(move.end), shift);
+    cutInShiftedBox(allowed(moves.back().end), allowed(start), shift);
+    strokes_.cutInBox(start, allowed(moves.back().end));
+    return true;
+  }
+  /// The box of both points, and of where they are shifted by all of the way or a part of it.
+  void cutInShiftedBox(const Point &a, const Point &b, const Shift &shift) {
+    const auto ends = [&](Axis axis, const Value &way) {
+      const Value &p = a[indexOf(axis)], &q = b[indexOf(axis)];
+      const auto isRising = interpretation_.compare(Relation::Less, p, q);
+      const auto isBack = interpretation_.compare(Relation::Less, way, context_.zero());
+      const Value low = interpretation_.select(isRising, p, q), high = interpretation_.select(isRising, q, p);
+      return std::pair{interpretation_.select(isBack, interpretation_.add(low, way), low),
+                       interpretation_.select(isBack, high, interpretation_.add(high, way))};
+    };
+    const auto x = ends(Axis::X, shift.x), z = ends(Axis::Z, shift.z);
+    strokes_.cutInBox(strokes_.at(x.first, z.first), strokes_.at(x.second, z.second));
+  }
+  bool drawPasses(const Moves &moves, const Shift &shift) {
+    constexpr double kMostPasses = 9999;
+    const auto passes = strokes_.constant(shift.passes);
+    if (!passes || *passes < 2 || *passes > kMostPasses || *passes != std::floor(*passes))
+      return false; // what one pass does, no manual says
+    const Point start = state_.position;
+    const Value x = x_, z = z_;
+    for (double left = *passes - 1; left >= 0; --left) {
+      const Value share = interpretation_.number(left / (*passes - 1));
+      x_ = interpretation_.add(x, interpretation_.multiply(shift.x, share));
+      z_ = interpretation_.add(z, interpretation_.multiply(shift.z, share));
+      const Point from = allowed(start);
+      strokes_.go(MoveKind::Rapid, from[indexOf(Axis::X)], from[indexOf(Axis::Z)]);
+      for (const Move<Value> &move : moves)
+        tellAllowed(move);
+    }
+    strokes_.go(MoveKind::Rapid, start[indexOf(Axis::X)], start[indexOf(Axis::Z)]);
+    return true;
+  }
+
   // ---- roughing ----
 
   bool rough(const ContourBlocks &contour) {
@@ -177,8 +279,7 @@ private:
     depth_ = isOneBlock_ ? strokes_.lengthInIncrements('D') : strokes_.learned(state_.cycle.initial);
     if (!isOneBlock_)
       retract_ = strokes_.learned(state_.cycle.dwell);
-    x_ = strokes_.length('U').value_or(context_.zero());
-    z_ = strokes_.length('W').value_or(context_.zero());
+    readAllowances();
     return true;
   }
   /// The first block of a contour of type I moves along one axis alone.

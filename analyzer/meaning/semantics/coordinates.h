@@ -8,6 +8,8 @@
 
 #include "meaning/semantics/context.h"
 
+#include <cmath>
+
 namespace feedhold {
 
 /// Machine coordinate of the zero point of the program on an axis: work offsets, G52, G92 and tool length together.
@@ -105,21 +107,30 @@ template <ValueAlgebra R> void havocPending(StepContext<R> &context, Axis axis) 
                                   interpretation.either(pending, interpretation.anyNumber()));
 }
 
-/// How many work offset systems lie before the one in force: 0 for G54; absent when it is not one of them.
+/// That of the P in force.
+template <ValueAlgebra R> std::optional<std::uint32_t> additionalOffsetInForce(StepContext<R> &context) {
+  const auto number = context.interpretation.constantOf(context.state.word('P'));
+  const bool isNumber = number && *number >= 1 && *number <= 0xFFFF && *number == std::floor(*number);
+  return isNumber ? additionalWorkOffset(context.dialect(), static_cast<std::uint32_t>(*number)) : std::nullopt;
+}
+
+/// The variable of X of the work offset in force; absent when it is not known which one is.
 template <ValueAlgebra R> std::optional<std::uint32_t> workOffsetInForce(StepContext<R> &context) {
   const auto group = context.modes.groupOf(ModalKind::WorkOffset);
   if (!group)
-    return 0;
+    return kFirstWorkOffset + kWorkOffsetStride;
   const auto index = context.interpretation.onlyCode(context.state.codes[*group]);
   if (!index)
     return std::nullopt;
   const auto &codes = context.modes.group(*group).codes;
+  if (codes[*index]->action == CodeAction::ExtendedWorkOffset)
+    return additionalOffsetInForce(context);
   if (codes[*index]->action != CodeAction::WorkOffset)
     return std::nullopt;
   std::uint32_t before = 0;
   for (std::size_t i = 0; i < *index; ++i)
     before += codes[i]->action == CodeAction::WorkOffset ? 1 : 0;
-  return before;
+  return kFirstWorkOffset + kWorkOffsetStride * (before + 1);
 }
 
 template <ValueAlgebra R> typename R::Value offsetVariable(StepContext<R> &context, std::uint32_t number) {
@@ -231,11 +242,9 @@ template <ValueAlgebra R> typename R::Value workOriginOf(StepContext<R> &context
   const VariableRange *external = findVariable(context.dialect(), kFirstWorkOffset);
   if (external && external->role == VariableRole::WorkOffset)
     origin = interpretation.add(origin, detail::offsetVariable(context, kFirstWorkOffset + number));
-  const std::optional<std::uint32_t> system = detail::workOffsetInForce(context);
-  if (!system)
-    return interpretation.anyNumber();
-  return interpretation.add(
-      origin, detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
+  const std::optional<std::uint32_t> first = detail::workOffsetInForce(context);
+  return first ? interpretation.add(origin, detail::offsetVariable(context, *first + number))
+               : interpretation.anyNumber();
 }
 
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context) {

@@ -4,6 +4,7 @@
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/tool_length.h"
 #include "meaning/semantics/turret.h"
+#include "meaning/semantics/work_offset_choice.h"
 
 #include <bit>
 
@@ -22,7 +23,8 @@ public:
   using Truth = typename R::Truth;
 
   Modes(StepContext<R> &context, const ExecutedWords<R> &words)
-      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words),
+        choice_(context, words) {}
 
   void run() {
     if (!words_.codes.empty() || !words_.computed.empty())
@@ -35,8 +37,9 @@ public:
 private:
   void codes() {
     switchUnits();
-    const bool shifts = changesWorkOffset();
+    const bool shifts = choice_.changesSystem();
     const auto before = shifts ? originsOf(context_) : std::array<Value, kAxisCount>{};
+    const bool wasKnown = !shifts || detail::workOffsetInForce(context_);
     const bool maps = changesMapping();
     const std::optional<Plane> planeBefore = planeOf(context_);
     if (maps)
@@ -51,6 +54,9 @@ private:
     cancelCycle();
     if (shifts)
       moveOrigins(context_, before);
+    if constexpr (requires { interpretation_.losePosition(); })
+      if (!wasKnown || (shifts && !detail::workOffsetInForce(context_)))
+        interpretation_.losePosition();
     length(lengthOff);
     if (maps) {
       mappings();
@@ -75,8 +81,8 @@ private:
         havocPosition(context_);
         interpretation_.unmodelled(word.code->meaning, word.span);
       }
-      if (action == CodeAction::ExtendedWorkOffset)
-        interpretation_.unmodelled("the origin of an additional work coordinate system", word.span);
+      if (choice_.mayBeAdditional(word))
+        choice_.enterAdditional(word);
       enterOtherGeometry(word);
       return;
     }
@@ -120,6 +126,8 @@ private:
       };
       if (is({ModalKind::WorkOffset, ModalKind::Length}))
         havocOrigins(context_);
+      if (is({ModalKind::WorkOffset}))
+        state_.word('P') = interpretation_.anyNumber();
       if (is({ModalKind::Units, ModalKind::Cycle}))
         havocPosition(context_);
       if (is({ModalKind::Units}))
@@ -246,7 +254,8 @@ private:
   }
   /// Offsets and positions in variables are read in the units in force.
   void rescaleStored(CodeAction to, const Value &factor, Truth already) {
-    constexpr std::array kLengths = {VariableRole::WorkOffset, VariableRole::SetOffset, VariableRole::Reference,
+    constexpr std::array kLengths = {VariableRole::WorkOffset,      VariableRole::AdditionalWorkOffset,
+                                     VariableRole::SetOffset,       VariableRole::Reference,
                                      VariableRole::SecondReference, VariableRole::SkipPosition};
     for (const VariableRange &range : context_.dialect().variables) {
       if (std::find(kLengths.begin(), kLengths.end(), range.role) == kLengths.end())
@@ -284,19 +293,6 @@ private:
 
   // ---- zero points ----
 
-  bool changesWorkOffset() const {
-    for (const CodeWord &word : words_.codes) {
-      const CodeAction action = word.code->action;
-      if (action == CodeAction::ExtendedWorkOffset || (action == CodeAction::WorkOffset && !inForceAlready(word)))
-        return true;
-    }
-    return false;
-  }
-  bool inForceAlready(const CodeWord &word) const {
-    const auto index = context_.modes.indexOf(*word.code);
-    return index && word.code->action == CodeAction::WorkOffset &&
-           interpretation_.onlyCode(state_.codes[word.code->group]) == index;
-  }
   /// The tip of the tool gets another coordinate while the machine stands still.
   void length(Truth wasOff) {
     bool isNamed = false;
@@ -571,7 +567,7 @@ private:
 
   void modalWords() {
     for (const char letter : kModalWords)
-      if (const auto *entry = words_.find(letter)) {
+      if (const auto *entry = letter == 'P' ? nullptr : words_.find(letter)) { // choice_
         Value &kept = state_.word(letter);
         kept = interpretation_.select(entry->present, entry->value, kept);
       }
@@ -586,6 +582,7 @@ private:
   R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
+  WorkOffsetChoice<R> choice_;
 };
 
 } // namespace detail

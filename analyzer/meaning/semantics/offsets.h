@@ -145,16 +145,12 @@ private:
     const std::optional<double> number = system ? interpretation_.constantOf(system->value) : std::nullopt;
     if (!number || *number < 0 || *number > 9)
       return std::nullopt;
-    auto row = static_cast<std::uint32_t>(*number);
+    const auto row = static_cast<std::uint32_t>(*number);
     if (row == 0 && context_.behaviour().localShiftIsVariable)
       return std::nullopt; // the offset of G52
     const VariableRange *external = findVariable(context_.dialect(), kFirstWorkOffset);
-    if (row == 0 && (!external || external->role != VariableRole::WorkOffset)) {
-      const auto inForce = detail::workOffsetInForce(context_);
-      if (!inForce)
-        return std::nullopt;
-      row = *inForce + 1;
-    }
+    if (row == 0 && (!external || external->role != VariableRole::WorkOffset))
+      return detail::workOffsetInForce(context_);
     const std::uint32_t first = kFirstWorkOffset + kWorkOffsetStride * row;
     const VariableRange *range = findVariable(context_.dialect(), first);
     return range && range->role == VariableRole::WorkOffset ? std::optional(first) : std::nullopt;
@@ -193,8 +189,7 @@ private:
       if (const auto *entry = words_.find(letterOf(axis))) {
         const auto number = static_cast<std::uint32_t>(indexOf(axis));
         const Value present =
-            inForce ? detail::offsetVariable(context_, kFirstWorkOffset + kWorkOffsetStride * (*inForce + 1) + number)
-                    : interpretation_.anyNumber();
+            inForce ? detail::offsetVariable(context_, *inForce + number) : interpretation_.anyNumber();
         const Value wanted = interpretation_.subtract(interpretation_.add(present, state_.at(axis)), entry->value);
         const Value old = detail::offsetVariable(context_, first + number);
         detail::writeWorkOffset(context_, first + number, interpretation_.select(entry->present, wanted, old));

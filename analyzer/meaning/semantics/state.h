@@ -123,7 +123,7 @@ template <typename Value> struct ModalCallState {
 /// The addresses whose last word stays in force (#4102 to #4120).  No string_view: the literal of one in a header need
 /// not be the same object in all translation units, and a loop over it may then begin in one and look for the end of
 /// another.
-inline constexpr std::array kModalWords = {'F', 'S', 'T', 'D', 'H', 'E', 'B'};
+inline constexpr std::array kModalWords = {'F', 'S', 'T', 'D', 'H', 'E', 'B', 'P'}; // P: of G54.1, G154
 constexpr std::size_t indexOfModalWord(char letter) {
   std::size_t index = 0;
   while (kModalWords[index] != letter)

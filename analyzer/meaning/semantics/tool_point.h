@@ -38,13 +38,25 @@ template <ValueAlgebra R> bool isAsAtEntry(StepContext<R> &context, const Machin
   return !group || context.state.codes[*group] == entry.codes[*group];
 }
 
+/// The same work offset as at the start, whichever that is: P chooses among those of `G54.1`.
+template <ValueAlgebra R> bool hasSystemOfEntry(StepContext<R> &context, const MachineState<R> &entry) {
+  R &interpretation = context.interpretation;
+  const auto &now = context.state.word('P'), &then = entry.word('P');
+  const auto areVacant = interpretation.both(interpretation.isVacant(now), interpretation.isVacant(then));
+  const auto areNumbers = interpretation.both(interpretation.negation(interpretation.isVacant(now)),
+                                              interpretation.negation(interpretation.isVacant(then)));
+  const auto areEqual = interpretation.both(
+      areNumbers, interpretation.compare(Relation::Equal, interpretation.asNumber(now), interpretation.asNumber(then)));
+  return isAsAtEntry(context, entry, ModalKind::WorkOffset) && context.certain(context.either(areVacant, areEqual));
+}
+
 /// An offset has been written, or may have been, and it is not known of which system that in force is.
 template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
   if (workOffsetInForce(context))
     return false;
   const auto &rows = context.dialect().variables;
   return std::any_of(rows.begin(), rows.end(), [&](const VariableRange &row) {
-    if (row.role != VariableRole::WorkOffset)
+    if (row.role != VariableRole::WorkOffset && row.role != VariableRole::AdditionalWorkOffset)
       return false;
     const auto &written = context.state.variables.entries();
     const auto &havocked = context.state.havocked;
@@ -59,19 +71,10 @@ template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
 template <ValueAlgebra R> typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axis axis) {
   R &interpretation = context.interpretation;
   StepContext<R> atEntry{interpretation, entry, context.programs, context.file, context.modes, context.block};
-  const bool sameSystem = isAsAtEntry(context, entry, ModalKind::WorkOffset);
-  const bool unknownSystem = !workOffsetInForce(context);
-  // `G54.1 P2` stays the same code when another P comes.
-  const auto additional = [&] {
-    const auto group = context.modes.groupOf(ModalKind::WorkOffset);
-    return group && interpretation.onlyCode(context.state.codes[*group]) ? interpretation.anyNumber() : context.zero();
-  };
   const std::size_t i = indexOf(axis);
-  if (unknownSystem && sameSystem && !offsetIsOpen(context))
-    return interpretation.add(
-        interpretation.subtract(interpretation.add(context.state.shift[i], context.state.local[i]),
-                                interpretation.add(entry.shift[i], entry.local[i])),
-        additional());
+  if (!workOffsetInForce(context) && hasSystemOfEntry(context, entry) && !offsetIsOpen(context))
+    return interpretation.subtract(interpretation.add(context.state.shift[i], context.state.local[i]),
+                                   interpretation.add(entry.shift[i], entry.local[i]));
   return interpretation.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
 }
 

@@ -203,13 +203,13 @@ template <ValueAlgebra R>
 void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typename R::Value &value) {
   R &interpretation = context.interpretation;
   const std::uint32_t axis = (number - kFirstWorkOffset) % kWorkOffsetStride;
-  const std::uint32_t written = (number - kFirstWorkOffset) / kWorkOffsetStride; // 0: external
+  const std::uint32_t written = number - axis; // its variable of X
   const auto moved = interpretation.subtract(offsetVariable(context, number), interpretation.asNumber(value));
   context.state.variables.set(number, value);
   if (axis >= kAxisCount)
     return;
   const std::optional<std::uint32_t> inForce = workOffsetInForce(context);
-  if (written == 0 || inForce == written - 1)
+  if (written == kFirstWorkOffset || inForce == written) // the external one, or that in force
     shiftCoordinate(context, kAllAxes[axis], moved);
   else if (!inForce)
     shiftCoordinate(context, kAllAxes[axis], interpretation.anyNumber());
@@ -218,9 +218,9 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
 /// Until its system is selected next, an origin in force is another than its variable shows.
 template <ValueAlgebra R>
 void writeWaitingOrigin(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
-  const std::uint32_t system = (number - kFirstWorkOffset) / kWorkOffsetStride - 1;
+  const std::uint32_t written = number - (number - kFirstWorkOffset) % kWorkOffsetStride;
   context.state.variables.set(number, std::move(value));
-  if (workOffsetInForce(context).value_or(system) != system)
+  if (workOffsetInForce(context).value_or(written) != written)
     return;
   havocOrigins(context);
   context.interpretation.unmodelled("an origin that is written while its coordinate system may be in force", place);
@@ -245,10 +245,11 @@ template <ValueAlgebra R> void loseOrigins(StepContext<R> &context, Span place) 
     writeRotation(context, context.interpretation.anyNumber(), context.interpretation.unknownTruth(), place);
 }
 
-/// The offsets in force are not told by a code that is followed: one of these may be among them.
-template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, Span place) {
+template <ValueAlgebra R>
+void writeAdditionalOffset(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
   if (workOffsetInForce(context))
-    return;
+    return writeWorkOffset(context, number, value);
+  context.state.variables.set(number, std::move(value));
   havocOrigins(context);
   context.interpretation.unmodelled("a change of an additional work offset while one may be active", place);
 }
@@ -269,7 +270,7 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
     interpretation.unmodelled("the offset of G52 written through its variable", place);
   }
   if (range.role == VariableRole::AdditionalWorkOffset)
-    changeAdditionalOffset(context, place);
+    return writeAdditionalOffset(context, cell, std::move(value), place);
   changeLengthOffset(context, cell);
   changeTipOffset(context, range, cell);
   if (range.role != VariableRole::MessageStop && !isVolatile(range.role))

@@ -98,6 +98,11 @@ private:
   std::optional<Witness> witness_;
 };
 
+/// Without a contract no claim speaks of the path, but for the alarms of cutter compensation.
+bool asksForMoves(const ProofSubject &subject) {
+  return subject.contract() != nullptr || subject.programs.mayCompensate();
+}
+
 } // namespace
 
 WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::vector<smt::TermId> demands) {
@@ -106,6 +111,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   RunOptions options = start.runStart();
   options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
+  options.moves = asksForMoves(subject) ? RecordMoves::Yes : RecordMoves::No;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
   std::set<std::string> promised;
   for (const auto &[number, contracts] : subject.options.missingContracts)

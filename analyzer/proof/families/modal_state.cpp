@@ -28,16 +28,14 @@ bool maySetMode(const Code &code) {
   return code.group == 0 && std::find(kModes.begin(), kModes.end(), code.action) != kModes.end();
 }
 
-/// With words of its own, it sets more than the code of its group: P of G54.1, P of G64, the box of G22, S of G50.
+/// With words of its own, it sets more than the code of its group: P of G64, the box of G22, S of G50.
 bool keepsWord(const Code &code, char address) {
   struct Row {
     CodeAction action;
     std::string_view addresses;
   };
-  constexpr Row kRows[] = {{CodeAction::ExtendedWorkOffset, "P"},
-                           {CodeAction::Tolerance, "PQR"},
-                           {CodeAction::Check, "XYZIJKPQR"},
-                           {CodeAction::CoordinateSet, "SQ"}};
+  constexpr Row kRows[] = {
+      {CodeAction::Tolerance, "PQR"}, {CodeAction::Check, "XYZIJKPQR"}, {CodeAction::CoordinateSet, "SQ"}};
   return std::any_of(std::begin(kRows), std::end(kRows), [&](const Row &row) {
     return row.action == code.action && row.addresses.find(address) != std::string_view::npos;
   });

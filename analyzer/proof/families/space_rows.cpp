@@ -1,4 +1,5 @@
 // Regions, clearance and travel: the tool goes only where the contract lets it (docs/geometry.md).
+#include "language/dialect/code_name.h"
 #include "proof/families/families.h"
 #include "proof/families/input_signs.h"
 #include "proof/families/space_runs.h"
@@ -284,6 +285,19 @@ bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Alternative &a
   return true;
 }
 
+std::optional<std::string> additionalClauseOf(const Dialect &dialect, std::uint32_t variable) {
+  const Code *code = additionalOffsetCode(dialect);
+  for (std::uint32_t number = 1; code != nullptr; ++number) {
+    const auto first = additionalWorkOffset(dialect, number);
+    if (!first)
+      break;
+    if (*first <= variable && variable < *first + kAxisCount)
+      return fmt::format("@OFFSET {} P{} {}..", textOf(CodeName{'G', code->tenths}), number,
+                         kAxisLetters[variable - *first]);
+  }
+  return std::nullopt;
+}
+
 /// The clause that says what a variable of the set-up holds.
 std::optional<std::string> setUpClauseOf(const Dialect &dialect, std::uint32_t variable) {
   const VariableRange *range = findVariable(dialect, variable);
@@ -293,6 +307,8 @@ std::optional<std::string> setUpClauseOf(const Dialect &dialect, std::uint32_t v
     if (axis < kAxisCount)
       return fmt::format("@OFFSET {} {}..", row == 0 ? "EXT" : fmt::format("G{}", 53 + row), kAxisLetters[axis]);
   }
+  if (range && range->role == VariableRole::AdditionalWorkOffset)
+    return additionalClauseOf(dialect, variable);
   if (range && range->role == VariableRole::Reference)
     return "@MACHINE .. HOME ..";
   const OffsetMemory &lengths = dialect.behaviour.lengthOffsets;
@@ -357,16 +373,17 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
       return fmt::format("the modal code of the group of G{:02} at the start is unknown; state it with `@MODAL`",
                          code.tenths / 10);
     }
-  const auto isOpen = [&](const SymbolicValue &zero) { return !smt::variablesOf(start_.store(), zero.number).empty(); };
-  if (std::ranges::any_of(move.point.zero, isOpen) && namesAdditionalOffset(context_.subject.file()))
-    return "where the zero point of an additional work offset (G54.1 P, G154 P) lies is not known, and no clause tells "
-           "it; `@OFFSET` tells those of G54 to G59";
   for (const auto &[variable, value] : start_.interpretation().entryValues())
     if (const auto clause =
             variables.contains(value.number) && !isStated(*context_.subject.contract(), dialect, variable)
                 ? setUpClauseOf(dialect, variable)
                 : std::nullopt)
       return fmt::format("what #{} holds is not known well enough; state it with `{}`", variable, *clause);
+  const auto isOpen = [&](const SymbolicValue &zero) { return !smt::variablesOf(start_.store(), zero.number).empty(); };
+  if (std::ranges::any_of(move.point.zero, isOpen) && namesAdditionalOffset(context_.subject.file()))
+    return "where the zero point lies is not known: by the P of an additional work offset (G54.1, G154), or by a write "
+           "that "
+           "is not followed";
   return "neither a proof nor a counterexample was found";
 }
 

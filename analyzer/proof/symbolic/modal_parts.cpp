@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 namespace feedhold::prove {
 
@@ -56,13 +57,22 @@ namespace {
 /// Parts that take effect only while a code of their group is active.
 TermId isUsed(SymbolicInterpretation &interpretation, const ModalTable &modes, PartId id, const SymbolicState &state) {
   smt::TermStore &store = interpretation.store();
-  const auto unless = [&](ModalKind kind, CodeAction cancel) {
+  /// Absent: the control has no such code.
+  const auto isInForce = [&](ModalKind kind, CodeAction action) -> std::optional<TermId> {
     const auto group = modes.groupOf(kind);
-    const CodeMask off = modes.maskOf(kind, {cancel});
-    if (!group || off == 0)
-      return store.yes();
-    const TermId cancelled = interpretation.code(static_cast<std::uint8_t>(std::countr_zero(off))).index;
-    return store.logicalNot(store.equal(state.codes[*group].index, cancelled));
+    const CodeMask mask = modes.maskOf(kind, {action});
+    if (!group || mask == 0)
+      return std::nullopt;
+    TermId isOne = store.no();
+    for (CodeMask left = mask; left != 0; left &= left - 1)
+      isOne = store.logicalOr(
+          isOne, store.equal(state.codes[*group].index,
+                             interpretation.code(static_cast<std::uint8_t>(std::countr_zero(left))).index));
+    return isOne;
+  };
+  const auto unless = [&](ModalKind kind, CodeAction cancel) {
+    const auto cancelled = isInForce(kind, cancel);
+    return cancelled ? store.logicalNot(*cancelled) : store.yes();
   };
   constexpr std::array kOfCycle = {Part::CycleBottom, Part::CycleRetract, Part::CycleInitial, Part::CyclePeck,
                                    Part::CycleDwell};
@@ -70,6 +80,8 @@ TermId isUsed(SymbolicInterpretation &interpretation, const ModalTable &modes, P
     return unless(ModalKind::Cycle, CodeAction::CycleOff);
   if (id.part == Part::LengthOffset)
     return unless(ModalKind::Length, CodeAction::LengthOff);
+  if (id.part == Part::ModalWord && kModalWords[id.key] == 'P')
+    return isInForce(ModalKind::WorkOffset, CodeAction::ExtendedWorkOffset).value_or(store.no());
   const bool isCentre = id.part == Part::ScaleCentre || id.part == Part::RotationCentre;
   return isCentre ? store.no() : store.yes(); // an active mapping shows in its scale and its angle
 }

@@ -2,7 +2,7 @@
 import re
 from fractions import Fraction as F
 
-from .path import GROUPS, LENGTHS, OFFSETS, XYZ
+from .path import ADDITIONAL, GROUPS, LENGTHS, XYZ, offset_of_code
 from .reckon import Model, Reckoner, Stop, Unsaid
 
 CODE = re.compile(r"G\d+(\.\d)?$")
@@ -65,11 +65,12 @@ def is_set_up(text, clause, state, reckoner) -> bool:
     sides = named_sides_of(clause, reckoner)
     if words[0] == "@MACHINE":
         return all(is_between(state.machine[i], low, high) for i, low, high in sides)
-    return all(is_between(state.cells.get(first_of(words[1]) + i) or F(0), low, high) for i, low, high in sides)
+    return all(is_between(state.cells.get(first_of(words) + i) or F(0), low, high) for i, low, high in sides)
 
 
-def first_of(system: str) -> int:
-    return 5201 if system == "EXT" else OFFSETS[system]
+def first_of(words) -> int:
+    """Of `@OFFSET G54 X..`, `@OFFSET G54.1 P2 X..`."""
+    return 5201 if words[1] == "EXT" else offset_of_code(words[1], int(words[2][1:]) if words[1] in ADDITIONAL else None)
 
 
 def numbers_of_length(text, word) -> list:
@@ -86,7 +87,8 @@ def sides_of(clause, reckoner) -> list:
 
 def named_sides_of(clause, reckoner) -> list:
     """(index, low, high) of each axis that `@OFFSET` or `@MACHINE` names."""
-    words = clause.split("HOME")[0].split()[1 if clause.startswith("@MACHINE") else 2:]
+    words = clause.split("HOME")[0].split()
+    words = words[1 if words[0] == "@MACHINE" else 3 if words[1] in ADDITIONAL else 2:]
     return [(XYZ.index(word[0]), *range_of(word[1:], reckoner)) for word in words]
 
 

@@ -356,7 +356,7 @@ class Run:
         else:
             target = number
         self.cells[target] = value
-        if 5200 < target < 5324:
+        if 5200 < target < 5324 or 14000 < target < 14961:
             self.tool.moved_zero()
         for frame in self.frames:
             before = frame.visit.entry.cells.get(target)

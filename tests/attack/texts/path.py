@@ -9,7 +9,7 @@ XYZ = "XYZ"
 GROUPS = {}
 for _number, _codes in ((1, "G0 G1 G2 G3"), (2, "G17 G18 G19"), (3, "G90 G91"), (5, "G94 G95"), (6, "G20 G21"),
                         (7, "G40"), (8, "G43 G44 G49"), (9, "G73 G80 G81 G82 G83 G84 G85 G86 G89"), (10, "G98 G99"),
-                        (11, "G50 G51"), (13, "G96 G97"), (14, "G54 G55 G56 G57 G58 G59"), (15, "G61 G64"),
+                        (11, "G50 G51"), (13, "G96 G97"), (14, "G54 G55 G56 G57 G58 G59 G54.1 G154"), (15, "G61 G64"),
                         (16, "G68 G69"), (22, "G50.1 G51.1")):
     for _code in _codes.split():
         GROUPS[_code] = _number
@@ -20,6 +20,18 @@ PLANES = {"G17": (0, 1, "I", "J"), "G18": (2, 0, "K", "I"), "G19": (1, 2, "J", "
 OTHER_UNITS = {"G20": F(10, 254), "G21": F(254, 10)}
 LENGTHS = (10000, 11000)  # wear and geometry, in whichever order
 OFFSETS = {"G54": 5221, "G55": 5241, "G56": 5261, "G57": 5281, "G58": 5301, "G59": 5321}
+ADDITIONAL = ("G54.1", "G154")  # of FANUC and Mitsubishi, of Haas
+
+
+def additional_offset(number) -> int:
+    """The cell of X of `G54.1 P`: #14001 is #7001, too."""
+    if F(number).denominator != 1 or not 1 <= number <= 48:
+        raise Unsaid("P of an additional work offset")
+    return 14001 + 20 * (int(number) - 1)
+
+
+def offset_of_code(code, number) -> int:
+    return additional_offset(number) if code in ADDITIONAL else OFFSETS[code]
 
 
 @dataclass
@@ -78,7 +90,7 @@ class Tool:
     def __init__(self, run, modes, place):
         self.run, self.ask = run, run.ask
         self.modes = {**AT_POWER_ON, **modes}
-        self.words = dict.fromkeys(("F", "S", "T", "H", "D", "spindle"))
+        self.words = dict.fromkeys(("F", "S", "T", "H", "D", "P", "spindle"))
         self.local, self.preset = [F(0)] * 3, [F(0)] * 3
         self.mapping = Mapping()
         self.unsure = set()  # axes that a change of the mapping left open
@@ -96,7 +108,7 @@ class Tool:
     # ---- places ----
 
     def shift(self):
-        first = OFFSETS[self.modes[14]]
+        first = offset_of_code(self.modes[14], self.words["P"])
         cells = self.run.cells
         return [(cells.get(5201 + i) or F(0)) + (cells.get(first + i) or F(0)) + self.local[i] + self.preset[i] +
                 (self.length if i == 2 else 0) for i in range(3)]
@@ -134,6 +146,10 @@ class Tool:
 
     def block(self, codes, words):
         once = [code for code in codes if code in SETTERS]
+        if any(code in ADDITIONAL for code in codes):
+            if "P" not in words:
+                raise Unsaid("an additional work offset without P")
+            self.words["P"] = words["P"]
         for code in codes:
             self.one_code(code)
         for letter in "FSTHD":
@@ -143,7 +159,7 @@ class Tool:
         for code in once:
             if getattr(self, "do_" + code.lower().replace(".", "_"))(words):
                 return any(axis in words for axis in XYZ) and code in ("G28", "G53")
-        if self.modes[14] and any(code in OFFSETS for code in codes):
+        if self.modes[14] and any(code in OFFSETS or code in ADDITIONAL for code in codes):
             self.moved_zero()
         axes = [axis for axis in XYZ if axis in words]
         if self.modes[9] != "G80":
@@ -180,7 +196,7 @@ class Tool:
         self.length, self.level = self.length * ratio, self.level * ratio
         self.cycle = {letter: value * ratio for letter, value in self.cycle.items()}
         cells = self.run.cells
-        cells.update({n: value * ratio for n, value in cells.items() if 5200 < n < 5324 and value is not None})
+        cells.update({n: value * ratio for n, value in cells.items() if (5200 < n < 5324 or 14000 < n < 14961) and value is not None})
 
     # ---- tool length ----
 

@@ -80,7 +80,7 @@ class Starts:
         for index, low, high in contract.named_sides_of(clause, reckoner) if head != "@LENGTH" else ():
             value = self.within(low, high)
             if head == "@OFFSET":
-                start.cells[contract.first_of(clause.split()[1]) + index] = value
+                start.cells[contract.first_of(clause.split()) + index] = value
             elif XYZ[index] not in self.given:
                 start.place[XYZ[index]] = value - StateOf(start).zero[index]
 

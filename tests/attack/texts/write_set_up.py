@@ -30,6 +30,9 @@ class SetUpWriter(SpaceWriter):
         zeros = [f"(@OFFSET G54 X{ends(x, wide)} Y{ends(y, wide // 2)} Z{ends(z, wide)})"]
         if self.rng.random() < 0.6:
             zeros.append(f"(@OFFSET G55 X{ends(x + 50, wide // 2)} Y{ends(y, wide // 2)} Z{ends(z, self.pick(0, 50))})")
+        self.additional = "G154" if self.dialect.startswith("haas") else "G54.1"
+        if self.rng.random() < 0.5:
+            zeros.append(f"(@OFFSET {self.additional} P{self.pick(1, 2)} X{ends(x - 20, wide)} Y{ends(y, 0)} Z{ends(z, wide // 2)})")
         if not self.dialect.startswith("haas"):  # which has none
             zeros.append(f"(@OFFSET EXT X0 Y0 Z{self.pick('0', '0', '-1..1')})")
         low = self.pick(0, 50, 60)
@@ -81,7 +84,10 @@ class SetUpWriter(SpaceWriter):
     def zero_point(self):
         self.add(*self.pick(("G55",), ("G54",), ("G52X10.Z5.",), ("G52X0Z0",), ("G92Z60.",), ("G92X1.",), ("G10L2P1X-350.Y-250.Z-420.",),
                             ("G91G10L2P1X-1.Z1.", "G90"), ("#5223=#5223+1.",), ("#5221=-350.",), ("#5203=2.",), ("#100=5223", "#[#100]=-430."),
-                            ("G10L2P2Z-430.", "G55"), ("G10L2P0Z1.",), ("G55X0", "G54X0")))
+                            ("G10L2P2Z-430.", "G55"), ("G10L2P0Z1.",), ("G55X0", "G54X0"),
+                            (f"{self.additional}P1",), (f"{self.additional}P2X0",), (f"{self.additional}P1", "#7001=#7001-5."),
+                            ("#14023=-430.", f"{self.additional}P2"), ("#7003=#5223", f"{self.additional}P1X0Y0"),
+                            ("#100=14021", "#[#100]=-350.", f"{self.additional}P2Y0")))
         if self.rng.random() < 0.5:
             self.add(f"G0X{self.length(-10, 10)}")
 
@@ -97,12 +103,12 @@ class SetUpWriter(SpaceWriter):
     def in_loop(self):
         self.add("#20=0", "WHILE[#20LT3]DO1", *self.pick((f"G43Z{self.up()}H1", "G91X2.", "G90"), ("#5223=#5223-1.", "G0Z300."),
                  ("G53Z-[#20*10]", "G53X-[#20+100]"), ("G91G28Z0", "G90", f"G43H1Z{self.up()}"), ("G43H[#20+1]Z90.",),
-                 ("G52X[#20*5]", "G0X0"), ("G0G49Z300.", "G43H2Z50.")), "#20=#20+1", "END1")
+                 ("G52X[#20*5]", "G0X0"), (f"{self.additional}P[#20+1]", "G0X5."), (f"{self.additional}P2", "#14021=#14021+1."), ("G0G49Z300.", "G43H2Z50.")), "#20=#20+1", "END1")
 
     def branch(self):
         number = self.arguments[0][0] if self.arguments else 100
         self.add(f"IF[#{number}GT{self.pick(1, 2, 30)}]GOTO{self.mark()}", *self.pick(("G49Z300.",), (f"G43H2Z{self.up()}",), ("G53Z0",), ("G55",),
-                 ("G52Z5.",), ("#2201=#2201+1.",)), f"N{self.marks}G0X{self.length(-10, 10)}", self.pick("Z120.", "Y5.", "G53Z-1."))
+                 (f"{self.additional}P2",), ("G52Z5.",), ("#2201=#2201+1.",)), f"N{self.marks}G0X{self.length(-10, 10)}", self.pick("Z120.", "Y5.", "G53Z-1."))
 
     def mark(self) -> int:
         self.marks = getattr(self, "marks", 0) + 1
@@ -113,7 +119,7 @@ class SetUpWriter(SpaceWriter):
         if not self.inner:
             self.inner = self.pick([*self.set_up, MODES, "G0X5.", "G91G28Z0", "G90"], [*self.set_up, MODES, "G43H1Z60.", "G49G53Z0"],
                                    [*self.tools, MODES, "G43H2Z90.", "G0X1.", "G49Z300."],
-                                   ["#5221=#5221-10."], ["G49", "G53Z0"], ["G52X10."], ["#2201=#2201+10.", "#2001=0"], ["G55"],
+                                   ["#5221=#5221-10."], ["G49", "G53Z0"], ["G52X10."], ["#2201=#2201+10.", "#2001=0"], ["G55"], [f"{self.additional}P2"],
                                    [*self.set_up, MODES, "(@TOOL FLAT RADIUS 1)", "(@KEEPOUT TABLE BOX Z..0)", "G0X9.", "G53Z0"])
         self.add(self.pick("M98P2", "G65P2"))
 

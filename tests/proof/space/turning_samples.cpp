@@ -165,12 +165,19 @@ private:
     add(absolute() + "G0X" + diameter() + "Z" + along());
     if (random_.oneIn(2))
       add(pick({"G0X50.Z2.", "G0X[40+#1]Z#2"}));
-    const std::string code = isTurning ? "G71" : "G72";
-    if (!isHaas_ && !random_.oneIn(4))
+    const bool isRepeated = random_.oneIn(4);
+    const std::string code = isRepeated ? "G73" : isTurning ? "G71" : "G72";
+    if (!isHaas_ && isRepeated)
+      add("G73U" + pick({"3.", "#1", "-2.", "0"}) + "W" + pick({"1.", "#2", "-1.", "0"}) +
+          pick({"R3", "R2", "R4", ""}));
+    else if (!isHaas_ && !random_.oneIn(4))
       add(code + (isTurning ? "U" : "W") + pick({"1.", "#1", "2."}) + "R" + pick({".5", "1.", "#2"}));
     if (!hasDistanceModes_ || random_.oneIn(3))
       add(fmt::format("{}P{}Q{}{}{}{}F.3", code, first, last, pick({"", "U.4", "U1.", "U-.5"}),
-                      pick({"", "W.1", "W.5", "W-.25"}), isHaas_ ? "D1." : ""));
+                      pick({"", "W.1", "W.5", "W-.25"}),
+                      !isHaas_     ? ""
+                      : isRepeated ? pick({"I3.K1.D3", "I#1K0D2", "I-1.K.5D4"})
+                                   : "D1."));
     add(fmt::format("N{}G0{}", first, isTurning ? "X" + diameter() : "Z" + along()));
     for (std::uint32_t i = 1 + random_.below(4); i > 0; --i)
       add("G1" + (random_.oneIn(2) ? "X" + diameter() : "Z" + along()) + pick({"", "", "F.1"}));
