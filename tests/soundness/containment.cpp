@@ -35,7 +35,7 @@ public:
     value("angle", state_.transform.angle, abstract_.transform.angle);
     value("length offset", state_.lengthOffset, abstract_.lengthOffset);
     for (std::size_t i = 0; i < state_.words.size(); ++i)
-      value(fmt::format("word {}", static_cast<char>('A' + i)), state_.words[i], abstract_.words[i]);
+      value(fmt::format("word {}", kModalWords[i]), state_.words[i], abstract_.words[i]);
     cycle();
     for (std::size_t i = 0; i < state_.transform.centre.size(); ++i)
       value("centre of rotation", state_.transform.centre[i], abstract_.transform.centre[i]);

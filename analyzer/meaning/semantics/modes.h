@@ -127,7 +127,8 @@ private:
       if (is({ModalKind::WorkOffset, ModalKind::Length}))
         havocOrigins(context_);
       if (is({ModalKind::WorkOffset}))
-        state_.word('P') = interpretation_.anyNumber();
+        state_.word('P') =
+            interpretation_.select(context_.maybeNot(), interpretation_.vacant(), interpretation_.anyNumber());
       if (is({ModalKind::Units, ModalKind::Cycle}))
         havocPosition(context_);
       if (is({ModalKind::Units}))
