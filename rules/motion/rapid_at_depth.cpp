@@ -14,10 +14,6 @@ namespace {
 constexpr std::initializer_list<CodeAction> kFeeding = {CodeAction::Linear, CodeAction::ArcClockwise,
                                                         CodeAction::ArcCounterclockwise};
 
-constexpr std::initializer_list<CodeAction> kDrilling = {
-    CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck,    CodeAction::CycleChipBreak,
-    CodeAction::CycleTap,   CodeAction::CycleBore,  CodeAction::CycleBoreStop};
-
 /// Follows the depth through blocks that stand one behind the other.
 class RapidAtDepth final : public FlowRule {
 public:
@@ -40,7 +36,7 @@ public:
       plunged_.reset();
     if (words.empty())
       return afterNoMove(node);
-    if (const Word *cycle = view_.findAction(node, kDrilling)) {
+    if (const Word *cycle = view_.findAction(node, kDrillingCycles)) {
       if (depth_ && !isIncremental_ && drills(node, state) && leavesPlace(words))
         cycles_.emplace(node, Cycle{cycle, *depthAt_});
       return forget();

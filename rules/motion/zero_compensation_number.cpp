@@ -1,5 +1,6 @@
 // zero-compensation-number: `G41 D0`, and a program whose first length offset is `G43 H0`.
 #include "rules/motion/folder_programs.h"
+#include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,11 @@
 
 namespace feedhold::rules::zero_compensation_number {
 namespace {
+
+constexpr std::initializer_list<CodeAction> kLengths = {CodeAction::LengthPlus, CodeAction::LengthMinus,
+                                                        CodeAction::LengthGiven};
+constexpr std::initializer_list<CodeAction> kCuts = {CodeAction::Linear, CodeAction::ArcClockwise,
+                                                     CodeAction::ArcCounterclockwise};
 
 void tell(const Word &code, const Word &number, std::string_view effect, std::pair<std::string, std::string> notes,
           const FileContext &context, const Reporter &reporter) {
@@ -20,8 +26,7 @@ void tell(const Word &code, const Word &number, std::string_view effect, std::pa
 /// No length offset comes before the block in the text of its program.
 bool isFirstLength(BlockId block, ProgramId program, const FileContext &context) {
   for (BlockId before = context.model.programs[program].first; before < block; before = before.next())
-    if (findAction(context.tree, before, context.dialect,
-                   {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven}))
+    if (findAction(context.tree, before, context.dialect, kLengths))
       return false;
   return true;
 }
@@ -29,13 +34,10 @@ bool isFirstLength(BlockId block, ProgramId program, const FileContext &context)
 /// Something is cut behind the block, before another length offset.
 bool cutsBehind(BlockId block, ProgramId program, const FileContext &context) {
   for (BlockId at = block.next(); at < context.model.programs[program].last; at = at.next()) {
-    if (findAction(context.tree, at, context.dialect,
-                   {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven}))
+    if (findAction(context.tree, at, context.dialect, kLengths))
       return false;
-    if (findAction(context.tree, at, context.dialect,
-                   {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise,
-                    CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck, CodeAction::CycleChipBreak,
-                    CodeAction::CycleTap, CodeAction::CycleBore}))
+    if (findAction(context.tree, at, context.dialect, kCuts) ||
+        findAction(context.tree, at, context.dialect, kDrillingCycles))
       return true;
   }
   return false;

@@ -382,8 +382,7 @@ std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &
   const auto isOpen = [&](const SymbolicValue &zero) { return !smt::variablesOf(start_.store(), zero.number).empty(); };
   if (std::ranges::any_of(move.point.zero, isOpen) && namesAdditionalOffset(context_.subject.file()))
     return "where the zero point lies is not known: by the P of an additional work offset (G54.1, G154), or by a write "
-           "that "
-           "is not followed";
+           "that is not followed";
   return "neither a proof nor a counterexample was found";
 }
 
