@@ -88,6 +88,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.behaviour.feedByIncrements = true;
   dialect.behaviour.localShiftIsVariable = true;
   dialect.behaviour.referenceCancelsLength = true;
+  dialect.behaviour.bareReferenceReturn = true; // Mill operator's manual, G28: without an axis code, all axes
   dialect.behaviour.logicOfIntegerParts = true;
   if (machine == MachineKind::Milling) {
     dialect.behaviour.toolChangeReturnsZ = true;

@@ -12,7 +12,7 @@ namespace {
 /// What the text of a program, and of those that it calls, does.
 struct Work {
   bool cuts = false;      // a block with G01, G02, G03 or a drilling cycle, and an end point
-  bool hasLength = false; // G43: a machine with tools of several lengths, no plotter
+  bool hasTool = false;   // M06 or G43: a machine that changes tools, no plotter
   bool isUnknown = false; // it may start the spindle, or measure, or cut with something else
 };
 
@@ -54,13 +54,14 @@ private:
     bool hasEnd = false;
     for (const Word &word : file.tree->wordsOf(block)) {
       hasEnd = hasEnd || word.address() == 'X' || word.address() == 'Y' || word.address() == 'Z';
-      work.isUnknown = work.isUnknown || word.address() == 'S';
+      work.isUnknown = work.isUnknown || (word.address() == 'S' && !word.has(Word::kArgument));
       if (!word.isCode())
         continue;
       const Code *code = codeOf(word, *file.dialect);
       work.isUnknown = work.isUnknown || !code || mayTurnSpindle(*code);
       isCut = isCut || (code && isCutting(*code));
-      work.hasLength = work.hasLength || (code && code->action == CodeAction::LengthPlus);
+      work.hasTool =
+          work.hasTool || (code && (code->action == CodeAction::LengthPlus || code->action == CodeAction::ToolChange));
     }
     work.cuts = work.cuts || (isCut && hasEnd);
   }
@@ -96,7 +97,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (calls.empty() || own.cuts) // its own moves are another rule's
     return;
   const Work all = reader.read(program);
-  if (!all.cuts || !all.hasLength || all.isUnknown)
+  if (!all.cuts || !all.hasTool || all.isUnknown)
     return;
   const Call &first = calls.front();
   reporter.report(

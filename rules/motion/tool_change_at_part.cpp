@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace feedhold::rules::tool_change_at_part {
 namespace {
@@ -16,6 +17,18 @@ std::optional<std::uint32_t> toolOf(const Word &word) {
     return std::nullopt;
   return *number >= 100 ? *number / 100 : *number;
 }
+
+/// Another tool is called while the tool is at x, z, as programmed.
+struct Change {
+  const Word *word; // T
+  double x, z;
+  const Block *cut; // the last one before
+  bool isNear;      // to the part along Z, and along X no further out than cuts
+};
+
+/// Forgotten: all other changes are away from the part.  By the place alone, one in front of the face may be in the
+/// air.
+enum class Reason : std::uint8_t { Place, Forgotten };
 
 class Reader {
 public:
@@ -36,6 +49,14 @@ public:
     }
   }
 
+  void finish(const Reporter &reporter) const {
+    constexpr std::size_t kFewestAway = 2;
+    const bool isForgotten = inFront_.size() == 1 && others_ == 0 && away_ >= kFewestAway;
+    for (const Change &change : inFront_)
+      if (isForgotten || change.isNear)
+        tell(change, isForgotten ? Reason::Forgotten : Reason::Place, reporter);
+  }
+
 private:
   void noteReach(const std::optional<double> &x) {
     if (x)
@@ -43,35 +64,53 @@ private:
   }
   /// In front of the face by less than what tools differ in length.
   bool isNearFace(double z) const { return z <= (walk_.isMetric() ? 5 : 0.2); }
+  bool isAtFace(double z) const { return z <= (walk_.isMetric() ? 0.5 : 0.02); }
 
   void readTool(const Word &word, BlockId block, const Reporter &reporter) {
     const auto tool = toolOf(word);
     if (tool == 0U)
       return;
-    const TurningPoint &at = walk_.at();
-    const bool isOther = tool && tool_ && *tool != *tool_;
-    const bool isAtPart = isOther && cut_ && at.x && at.z && std::abs(*at.x) <= reach_ && isNearFace(*at.z);
-    const bool movesInBlock = findWord(context_.tree, block, 'X') || findWord(context_.tree, block, 'Z');
-    if (isAtPart && !movesInBlock)
-      tell(word, *at.x, *at.z, reporter);
+    if (tool && tool_ && *tool == *tool_) // another offset, or none
+      return;
+    if (tool && tool_ && cut_)
+      readChange(word, block, reporter);
     tool_ = tool;
     cut_ = nullptr;
   }
+  void readChange(const Word &word, BlockId block, const Reporter &reporter) {
+    const TurningPoint &at = walk_.at();
+    if (!at.x || !at.z) {
+      ++away_;
+      return;
+    }
+    const bool movesInBlock = findWord(context_.tree, block, 'X') || findWord(context_.tree, block, 'Z');
+    const Change change{&word, *at.x, *at.z, cut_, std::abs(*at.x) <= reach_ && isNearFace(*at.z)};
+    if (!movesInBlock && *at.z > 0 && !isAtFace(*at.z) && *at.z <= reach_) {
+      inFront_.push_back(change);
+      return;
+    }
+    ++others_;
+    if (!movesInBlock && change.isNear)
+      tell(change, Reason::Place, reporter);
+  }
 
-  void tell(const Word &word, double x, double z, const Reporter &reporter) const {
+  void tell(const Change &change, Reason reason, const Reporter &reporter) const {
+    const double x = change.x, z = change.z;
     const bool isBeside = z < 0;
-    const bool isAtFace = !isBeside && z <= (walk_.isMetric() ? 0.5 : 0.02);
-    reporter.report(
-        {.message = fmt::format("{} turns the turret at X{:g} Z{:g}, {} the part", context_.quoted(word.span()), x, z,
-                                isBeside   ? "beside"
-                                : isAtFace ? "on the face of"
-                                           : "right in front of"),
-         .span = word.span(),
-         .labels = {{cut_->span(), "the last cut"}},
-         .notes = {isBeside ? "the tools that swing past hit the part or the chuck"
-                            : "a tool that is longer than this one hits the face when it swings in",
-                   "retract first, by `G28 U0 W0` or to a safe X and Z"}},
-        isBeside || isAtFace ? Severity::Warning : Severity::Info);
+    const bool isCertain = isBeside || isAtFace(z) || reason == Reason::Forgotten;
+    Diagnostic diagnostic{.message = fmt::format("{} turns the turret at X{:g} Z{:g}, {} the part",
+                                                 context_.quoted(change.word->span()), x, z,
+                                                 isBeside      ? "beside"
+                                                 : isAtFace(z) ? "on the face of"
+                                                               : "right in front of"),
+                          .span = change.word->span(),
+                          .labels = {{change.cut->span(), "the last cut"}},
+                          .notes = {isBeside ? "the tools that swing past hit the part or the chuck"
+                                             : "a tool that is longer than this one hits the face when it swings in"}};
+    if (reason == Reason::Forgotten)
+      diagnostic.notes.push_back("the program calls its other tools away from the part");
+    diagnostic.notes.push_back("retract first, by `G28 U0 W0` or to a safe X and Z");
+    reporter.report(std::move(diagnostic), isCertain ? Severity::Warning : Severity::Info);
   }
 
   const FileContext &context_;
@@ -79,6 +118,9 @@ private:
   std::optional<std::uint32_t> tool_; // in the turret's working place
   const Block *cut_ = nullptr;        // the last one with it
   double reach_ = 0;                  // the largest X at which the program cuts
+  std::vector<Change> inFront_;
+  std::size_t away_ = 0;   // changes at a place that is not known in coordinates of the part: home
+  std::size_t others_ = 0; // changes beside the part, on its face, or far in front of it
 };
 
 } // namespace

@@ -5,7 +5,8 @@
 
 namespace feedhold::rules {
 
-/// What `.program` of a rule is: a Reader(program, context) gets each block by read(block, reporter).
+/// What `.program` of a rule is: a Reader(program, context) gets each block by read(block, reporter), and
+/// finish(reporter) if it declares one.
 template <typename Reader>
 void readTurningProgram(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning)
@@ -14,6 +15,8 @@ void readTurningProgram(ProgramId program, const FileContext &context, const Rep
   const Program &its = context.model.programs[program];
   for (BlockId block = its.first; block < its.last; block = block.next())
     reader.read(block, reporter);
+  if constexpr (requires { reader.finish(reporter); })
+    reader.finish(reporter);
 }
 
 /// Calls visit(block, start, walk) for each block in which a cycle moves the tool.

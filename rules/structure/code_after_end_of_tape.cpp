@@ -61,7 +61,39 @@ void reportJumps(const std::vector<const Jump *> &jumps, Span span, const FileCo
   reporter.report(std::move(diagnostic));
 }
 
+/// The `%` with which the tape ends: of two, so that what stands behind it is no tape of its own.  Blocks from an O
+/// word on have no Block::kAfterEnd, since they may be one.
+std::optional<BlockId> endOfTape(const FileContext &context) {
+  std::vector<BlockId> percents;
+  for (std::size_t i = 0; i < context.tree.blockCount(); ++i)
+    if (context.tree.blocks[BlockId(i)].has(Block::kPercent))
+      percents.push_back(BlockId(i));
+  return percents.size() == 2 ? std::optional(percents.back()) : std::nullopt;
+}
+
+/// A program calls one that stands behind it: text between two `%` of its own would be another file.
+void checkCalls(const FileContext &context, const Reporter &reporter) {
+  const auto end = endOfTape(context);
+  if (!end)
+    return;
+  for (const Call &call : context.model.callsIn(BlockId(0), *end)) {
+    const auto callee = context.callGraph.callee(context.file, call);
+    if (!callee || callee->file != context.file || context.model.programs[callee->program].first < *end)
+      continue;
+    const std::string name = toString(context.model.programs[callee->program].name);
+    return reporter.report(
+        {.message = fmt::format("{} calls {}, which stands after the closing `%`", context.quoted(call.span), name),
+         .span = call.span,
+         .labels = {{context.tree.blocks[*end].span(), "the control reads no further"},
+                    {context.model.programs[callee->program].header, "not stored"}},
+         .notes = {fmt::format("at the call the control {}", stopsWith(context.dialect, AlarmKind::ProgramNotFound)),
+                   "move the `%` to the end of the file"}},
+        Severity::Warning);
+  }
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
+  checkCalls(context, reporter);
   const Shares shares = sharesOf(context);
   if (!shares.firstBehind)
     return;
@@ -88,7 +120,7 @@ extern const Rule codeAfterEndOfTape;
 const Rule codeAfterEndOfTape{
     .info = {"code-after-end-of-tape", Category::Structure, Severity::Error,
              "Reports program text after the closing `%`; it is an error when the program jumps there, and a warning "
-             "when most of the file stands there."},
+             "when it calls a program there, or most of the file stands there."},
     .hooks = {.file = check}};
 
 } // namespace feedhold::rules::code_after_end_of_tape

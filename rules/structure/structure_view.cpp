@@ -22,7 +22,7 @@ bool isBrokenControl(const FileContext &context, BlockId block) {
          });
 }
 
-/// A subroutine that is left by `return` works without its `endsub`.
+/// A subroutine without an `endsub` is told by isSubWithoutEnd.
 bool findsNoPartner(const OWordUse &use, const ProgramModel &model) {
   if (!use.construct)
     return use.kind != OWordKind::Call && use.kind != OWordKind::Return;
@@ -32,11 +32,15 @@ bool findsNoPartner(const OWordUse &use, const ProgramModel &model) {
 
 } // namespace
 
-bool isSubWithoutEnd(const Construct &construct, const ProgramModel &model) {
-  const std::string &label = model.oWords[construct.parts.front()].label;
-  return construct.kind == OWordKind::Sub && !construct.closed &&
-         std::none_of(model.oWords.begin(), model.oWords.end(),
-                      [&](const auto &use) { return use.kind == OWordKind::Return && use.label == label; });
+bool isSubWithoutEnd(const Construct &construct, const FileContext &context) {
+  const auto &uses = context.model.oWords;
+  const std::string &label = uses[construct.parts.front()].label;
+  if (construct.kind != OWordKind::Sub || construct.closed)
+    return false;
+  // A call finds the file by the name of the subroutine, and comes back at the `return`.
+  const bool returns = std::any_of(
+      uses.begin(), uses.end(), [&](const auto &use) { return use.kind == OWordKind::Return && use.label == label; });
+  return !returns || !context.callGraph.isFileOf(context.file, label);
 }
 
 bool isStructureBroken(const FileContext &context, ProgramId id) {
@@ -49,7 +53,7 @@ bool isStructureBroken(const FileContext &context, ProgramId id) {
   return !model.loneEndsOf(id).empty() || std::ranges::any_of(model.loopsOf(id), isOpen) ||
          std::ranges::any_of(model.oWordsIn(program.first, program.last), [&](const OWordUse &use) {
            return findsNoPartner(use, model) || (use.kind == OWordKind::Sub && use.construct &&
-                                                 isSubWithoutEnd(model.constructs[*use.construct], model));
+                                                 isSubWithoutEnd(model.constructs[*use.construct], context));
          });
 }
 

@@ -13,8 +13,8 @@ namespace feedhold::rules {
 /// The program has an O word or a `<NAME>`; without it the text may be a fragment of one.
 bool isNamed(const Program &program);
 
-/// `o100 sub` that no `o100 endsub` closes and no `o100 return` leaves.
-bool isSubWithoutEnd(const Construct &construct, const ProgramModel &model);
+/// `o100 sub` that no `o100 endsub` closes, and no `o100 return` leaves in a file of this name.
+bool isSubWithoutEnd(const Construct &construct, const FileContext &context);
 
 /// An o-word, a WHILE, DO or END of the program does not parse or finds no partner: what its blocks do is not what was
 /// meant, and that is reported where it is wrong.

@@ -165,7 +165,7 @@ void check(const FileContext &context, const Reporter &reporter) {
       reportLone(use, context, reporter);
   for (const Construct &construct : model.constructs) {
     const OWordUse &head = model.oWords[construct.parts.front()];
-    const bool isOpen = !construct.closed && (construct.kind != OWordKind::Sub || isSubWithoutEnd(construct, model));
+    const bool isOpen = !construct.closed && (construct.kind != OWordKind::Sub || isSubWithoutEnd(construct, context));
     if (isOpen && !isTold(head) && !isEndMisspelled(head, context))
       reportOpen(head, context, reporter);
   }

@@ -105,8 +105,8 @@ RunOptions ReplayedProgram::optionsOf(const Start &start) const {
   options.fuel = kFuel;
   options.mostMoves = kMostMoves;
   options.words = WordRounding::None;
-  return prove::withCompensation(loaded_.set, entry(), &contracts_,
-                                 prove::startedAsSaid(loaded_.set, entry(), contracts_, std::move(options)));
+  return prove::followedAsSaid(loaded_.set, entry(), &contracts_,
+                               prove::startedAsSaid(loaded_.set, entry(), contracts_, std::move(options)));
 }
 
 RunResult ReplayedProgram::run(const Start &start) const {

@@ -145,7 +145,9 @@ private:
   }
   void flags() {
     truth("length changed", state_.lengthChanged, abstract_.lengthChanged);
-    truth("axis turned", state_.axisTurned, abstract_.axisTurned);
+    for (const Axis axis : kAllAxes)
+      truth(fmt::format("{} moved", letterOf(axis)), state_.axisMoved[indexOf(axis)],
+            abstract_.axisMoved[indexOf(axis)]);
     truth("transformed", state_.transformed, abstract_.transformed);
     for (const auto &[number, entered] : state_.enteredLoops) {
       Truth known = Truth::True;

@@ -29,7 +29,7 @@ private:
 using ProgramLines = std::vector<std::string>;
 
 struct Sample {
-  std::string_view dialect; // its id; `fanuc-30i-lathe/B`: a lathe of another G code system
+  std::string_view dialect; // its id; `fanuc-30i-lathe/B`: a lathe of another G code system; `/lrp`: with this switch
   ProgramLines lines;       // the program that is run first, then those that it may call
 };
 /// Of any dialect; the commonest one more often than others.

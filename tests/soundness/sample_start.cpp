@@ -4,6 +4,7 @@
 #include "dialects/registry.h"
 
 #include <map>
+#include <mutex>
 
 namespace feedhold::soundness {
 
@@ -12,11 +13,16 @@ const Dialect &controlOf(const Sample &sample) {
   const Dialect &plain = *findDialect(allDialects(), sample.dialect.substr(0, slash));
   if (slash == std::string_view::npos)
     return plain;
-  static std::map<std::string_view, Dialect> lathes;
-  const auto [lathe, isNew] = lathes.try_emplace(sample.dialect, plain);
-  if (isNew)
-    chooseGCodeSystem(lathe->second, gCodeSystemNamed(sample.dialect.substr(slash + 1)).value());
-  return lathe->second;
+  static std::map<std::string_view, Dialect> others;
+  static std::mutex guard;
+  const std::scoped_lock lock(guard);
+  const auto [other, isNew] = others.try_emplace(sample.dialect, plain);
+  const std::string_view choice = sample.dialect.substr(slash + 1);
+  if (isNew && choice == "lrp")
+    other->second.switches.lrp = Switch::On;
+  else if (isNew)
+    chooseGCodeSystem(other->second, gCodeSystemNamed(choice).value());
+  return other->second;
 }
 
 Dialect machineOf(const Sample &sample, Random &random) {

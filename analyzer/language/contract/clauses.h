@@ -56,6 +56,8 @@ LengthRange readLength(ClauseReader &reader, const ContractReading &reading, Cla
 std::optional<Decimal> readStep(ClauseReader &reader, const ContractReading &reading);
 /// Of `@CORNER 0.05`; absent: the clause has an issue.
 std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
+/// Of `@FIXED A`.
+FixedAxes readFixed(ClauseReader &reader, ClauseId clause);
 /// Behind HOME: to where G28 returns.  Machine zero, unless the control keeps it in variables.
 std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &reading);
 

@@ -185,6 +185,11 @@ struct CornerRounding {
   ClauseId clause;
   Decimal most; // 0 or more
 };
+/// `@FIXED A`: regions and tool are the same at every angle of these axes.
+struct FixedAxes {
+  ClauseId clause;
+  std::string axes; // letters, in the order of the clause
+};
 /// `@LIMIT F 1..5000`
 struct WordLimit {
   ClauseId clause;
@@ -266,6 +271,7 @@ struct Contract {
   std::optional<Travel> travel;
   std::optional<MachineRange> machine;
   std::optional<CornerRounding> corner;
+  std::optional<FixedAxes> fixed;
   std::vector<WordLimit> limits;
   std::vector<Ensure> ensures;
   std::optional<EqualTolerance> tolerance;

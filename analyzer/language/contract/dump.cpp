@@ -160,6 +160,8 @@ private:
       line("machine" + writer(contract.machine->clause).text(contract.machine->box));
     if (contract.corner)
       line("corners rounded by " + contract.corner->most.toString());
+    if (contract.fixed)
+      line("fixed " + contract.fixed->axes);
     for (const WordLimit &each : contract.limits)
       line(fmt::format("limit {}: {}", each.address, writer(each.clause).text(each.range)));
   }

@@ -50,6 +50,7 @@ private:
     case ClauseKind::Length: return length();
     case ClauseKind::Machine: return machine();
     case ClauseKind::Corner: return corner();
+    case ClauseKind::Fixed: return fixed();
     case ClauseKind::KeepIn: return region(contract_.keepIn);
     case ClauseKind::KeepOut: return region(contract_.keepOut);
     case ClauseKind::Clearance: return clearance();
@@ -285,6 +286,12 @@ private:
     const std::optional<CornerRounding> corner = readCorner(reader_, reading_, id_);
     if (isRead())
       setOnce(contract_.corner, *corner, "the rounding of corners");
+  }
+  void fixed() {
+    refuseOnLathe("on a lathe, regions lie all round the spindle already, and A and B are not followed");
+    FixedAxes fixed = readFixed(reader_, id_);
+    if (isRead())
+      setOnce(contract_.fixed, std::move(fixed), "the axes at every angle of which the regions are the same");
   }
   void addValues(std::vector<SetUpValue> values) {
     if (!isRead())

@@ -1,5 +1,5 @@
-// The clauses of the set-up: work offsets, tool lengths, the range and the reference position of the machine, and how
-// it rounds corners.
+// The clauses of the set-up: work offsets, tool lengths, the range and the reference position of the machine, how it
+// rounds corners, and the axes of `@FIXED`.
 #include "language/contract/clauses.h"
 
 #include <fmt/format.h>
@@ -105,6 +105,17 @@ std::optional<CornerRounding> readCorner(ClauseReader &reader, const ContractRea
   if (!most || *most < Decimal::fromInteger(0))
     reader.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
   return most ? std::optional(CornerRounding{clause, *most}) : std::nullopt;
+}
+
+FixedAxes readFixed(ClauseReader &reader, ClauseId clause) {
+  FixedAxes fixed{clause, {}};
+  while (const std::optional<char> letter = reader.takeLetter("ABC")) {
+    if (fixed.axes.find(*letter) == std::string::npos)
+      fixed.axes += *letter;
+  }
+  if (fixed.axes.empty())
+    reader.expected("rotary axes, such as `A` or `B C`");
+  return fixed;
 }
 
 std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &reading) {

@@ -117,6 +117,7 @@ struct CallGraph::Impl {
   std::vector<ProgramRef> nearest(const std::vector<ProgramRef> &among, ProgramRef from, const ProgramName &name,
                                   int farthest) const;
   bool isPacked(FileId file, const Call &call) const;
+  bool isFileOf(FileId id, std::string_view label) const;
   std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
   int distance(ProgramRef from, ProgramRef to) const;
   const Program &program(ProgramRef ref) const { return file(ref.file).model->programs[ref.program]; }
@@ -187,7 +188,7 @@ std::vector<ProgramRef> CallGraph::Impl::nearest(const std::vector<ProgramRef> &
   for (const ProgramRef &ref : among) {
     int here = distance(from, ref);
     if (name.isSubroutine && ref.file != from.file)
-      here = comparedName(file(ref.file).stem) == name.text ? std::min(here, kFolderNear) : kOutOfReach;
+      here = isFileOf(ref.file, name.text) ? std::min(here, kFolderNear) : kOutOfReach;
     if (here < nearest)
       programs.clear();
     if (here <= nearest)
@@ -196,6 +197,8 @@ std::vector<ProgramRef> CallGraph::Impl::nearest(const std::vector<ProgramRef> &
   }
   return programs;
 }
+
+bool CallGraph::Impl::isFileOf(FileId id, std::string_view label) const { return comparedName(file(id).stem) == label; }
 
 bool CallGraph::Impl::isPacked(FileId file, const Call &call) const {
   const ProgramRef caller{file, call.caller};
@@ -292,6 +295,7 @@ std::vector<ProgramRef> CallGraph::candidates(FileId file, const Call &call) con
   return impl_ && transfersControl(call.kind) ? impl_->candidates(file, call) : std::vector<ProgramRef>();
 }
 
+bool CallGraph::isFileOf(FileId file, std::string_view label) const { return impl_ && impl_->isFileOf(file, label); }
 bool CallGraph::isPacked(FileId file, const Call &call) const { return impl_ && impl_->isPacked(file, call); }
 
 bool CallGraph::reachesEncrypted(FileId file, const Call &call) const {

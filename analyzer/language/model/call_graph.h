@@ -39,6 +39,8 @@ public:
   bool isPacked(FileId file, const Call &call) const;
   /// Whether a call may reach an encrypted program, of which nothing is known.
   bool reachesEncrypted(FileId file, const Call &call) const;
+  /// The file has the name of a subroutine, by which calls from other files find it.
+  bool isFileOf(FileId file, std::string_view label) const;
   /// The other programs of its file and its folder that have the name of a program.
   std::vector<ProgramRef> namesakes(ProgramRef program) const;
   /// The calls that reach a program.

@@ -202,12 +202,12 @@ private:
   }
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
-    const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
+    const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_, options_.fixed);
     const bool isInAdditional = isInAdditionalSystem(ctx);
     const bool isPlaced =
         !wasLost_ && !interpretation_.isLost() && !std::exchange(wasInAdditional_, isInAdditional) && !isInAdditional;
     const bool isFollowed = isPlaced && (point.withoutCompensation || options_.cutter == CutterCompensation::Followed);
-    const bool isButForLength = isFollowed && point.sameUnits && point.sameSide;
+    const bool isBlockOfTool = isFollowed && point.sameUnits && point.sameSide;
     const LengthInForce length = !point.withLength        ? LengthInForce::None
                                  : point.lengthSubtracted ? LengthInForce::Subtracted
                                                           : LengthInForce::Added;
@@ -215,10 +215,18 @@ private:
     const auto numbers = [](const std::array<ConcreteValue, 3> &values) {
       return std::array{values[0].number, values[1].number, values[2].number};
     };
-    for (Move<ConcreteValue> &move : moves)
+    for (Move<ConcreteValue> &move : moves) {
+      const bool isOfTool = isBlockOfTool && !movesOtherAxis(move);
       result_.moves.push_back({move, unitInForce(), here, own, numbers(point.zero), numbers(point.machineZero),
-                               isButForLength && point.lengthKnown, isButForLength, length,
+                               isOfTool && point.lengthKnown, isOfTool, length,
                                isFollowed && point.sameUnits && detail::workOffsetInForce(ctx)});
+    }
+  }
+  bool movesOtherAxis(const Move<ConcreteValue> &move) const {
+    const auto isSame = [](const ConcreteValue &a, const ConcreteValue &b) { return a.number == b.number; };
+    return std::ranges::any_of(kAllAxes, [&](Axis axis) {
+      return isBesideRegions(dialect(), axis) && !options_.fixed[indexOf(axis)] && mayMove(move, axis, isSame);
+    });
   }
   /// `G54.1` of which P is not known, or the way from or to one: where its zero point lies is the operator's.  One that
   /// is in force from the start is that of the coordinates of the start.

@@ -49,6 +49,7 @@ struct RunOptions {
   /// The offset of a D, or of the T of a lathe, that nothing else gives, in this run; null, or absent: such a path is
   /// not followed.
   std::function<std::optional<CutterOffset<double>>(const RunOptions &, double number)> cutterRadius = nullptr;
+  AxisSet fixed = {};                              // of `@FIXED`: RecordedMove::isOfTool
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// What the read of an input in an instruction gives, in place of `variables.readings`; null: those.
   std::function<double(Place, std::uint32_t variable)> inputs = nullptr;

@@ -23,7 +23,8 @@ struct RecordedMove {
   /// X, Y, Z: where that zero point lies in machine coordinates, tool length included; in the units of the move.
   std::array<double, 3> machineZero = {};
   /// Its coordinates, or those of `centre`, are those of the tool (tool_point.h): cutter compensation is off or
-  /// followed, its length and the units are those of the start, and no other axis has turned the part.
+  /// followed, its length and the units are those of the start, and no axis that regions do not describe has moved
+  /// since, or moves here, but for those of `@FIXED`.
   bool isOfTool = true;
   bool isOfToolButForLength = true; // the same, whatever has become of the length
   LengthInForce length = LengthInForce::Added;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,9 @@ constexpr std::optional<Axis> axisOf(char letter) {
       return axis;
   return std::nullopt;
 }
+
+/// Some of the axes, by indexOf.
+using AxisSet = std::bitset<kAxisCount>;
 
 /// The axes of a working plane: arcs turn from `first` to `second`, holes are drilled along `normal`.
 struct Plane {

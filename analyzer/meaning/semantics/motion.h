@@ -34,7 +34,7 @@ public:
     if (!isEmpty && interpretation_.mayBe(waitsForLine(context_)) && !endsCorner())
       loseCorner(context_,
                  ownWords() || !interpretation_.mayBe(axisWords()) ? CornerLost::Surely : CornerLost::Perhaps);
-    const bool others = namesOtherAxes();
+    const bool others = namesOtherAxes() || mayReturnOtherAxes();
     const bool keepsPlace = keepsWords(context_) && !leadsInPlane();
     const Point before = others || keepsPlace ? state_.position : Point{};
     act();
@@ -44,10 +44,10 @@ public:
       settlePending(context_, words_);
     if ((!words_.entries.empty() || ownWords()) && interpretation_.mayBe(otherGeometry(context_))) {
       havocPosition(context_);
-      state_.axisTurned = context_.either(state_.axisTurned, otherGeometry(context_));
+      noteAllMoved(otherGeometry(context_));
     }
     if (words_.mayTakeAxes)
-      state_.axisTurned = context_.either(state_.axisTurned, interpretation_.unknownTruth());
+      noteAllMoved(interpretation_.unknownTruth());
     if (others)
       noteOtherAxes(before);
     if (const CodeWord *change = words_.findCode(CodeAction::ToolChange);
@@ -77,13 +77,31 @@ private:
   bool namesOtherAxes() const {
     return std::ranges::any_of(kAllAxes, [&](Axis axis) { return namesOther(axis); });
   }
+  /// A reference return without axis words, of controls that return all axes then.
+  Truth returnsAll() const {
+    return interpretation_.both(interpretation_.truth(context_.behaviour().bareReferenceReturn),
+                                interpretation_.negation(axisWords()));
+  }
+  bool mayReturnOtherAxes() const {
+    return (words_.has(CodeAction::ReferenceReturn) || words_.has(CodeAction::SecondReference)) &&
+           interpretation_.mayBe(returnsAll());
+  }
   /// Such an axis turns the part, or moves it or the tool.
   void noteOtherAxes(const Point &before) {
+    const bool mayReturn = mayReturnOtherAxes();
     for (const Axis axis : kAllAxes)
-      if (namesOther(axis))
-        state_.axisTurned = context_.either(
-            state_.axisTurned,
-            interpretation_.negation(interpretation_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
+      if (namesOther(axis) || (mayReturn && isBesideRegions(context_.dialect(), axis)))
+        noteMoved(axis, interpretation_.negation(
+                            interpretation_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
+  }
+  void noteMoved(Axis axis, const Truth &when) {
+    Truth &moved = state_.axisMoved[indexOf(axis)];
+    moved = context_.either(moved, when);
+  }
+  void noteAllMoved(const Truth &when) {
+    for (const Axis axis : kAllAxes)
+      if (isBesideRegions(context_.dialect(), axis))
+        noteMoved(axis, when);
   }
   void act() {
     if (context_.behaviour().distanceModeByWord && words_.has(CodeAction::Absolute) &&
@@ -268,7 +286,8 @@ private:
   bool isLetterOfIncrement(Axis axis) const {
     return incrementsByLetter(context_) && (axis == Axis::U || axis == Axis::V || axis == Axis::W);
   }
-  /// An arc whose end point is not written ends where it starts.
+  /// An arc whose end point is not written ends where it starts.  With a centre word beside the plane alone a control
+  /// does nothing, or stops: then it counts as a circle, of which arcs.h raises the alarm.
   Truth isFullCircle() {
     const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
     const Truth arc = interpretation_.both(centre, isArc());
@@ -278,7 +297,8 @@ private:
     const Truth inPlane = context_.either(present(plane->firstCentre), present(plane->secondCentre));
     if (interpretation_.mayBe(interpretation_.both(arc, interpretation_.negation(inPlane))))
       interpretation_.unmodelled("a centre word outside the plane of the arc", context_.place());
-    return interpretation_.both(arc, context_.either(inPlane, context_.maybeNot()));
+    const Truth stops = context_.isOn(&Switches::besideCentreStops);
+    return interpretation_.both(arc, context_.either(inPlane, context_.either(stops, context_.maybeNot())));
   }
   Truth cycleActive() {
     const Truth none = interpretation_.truth(false);
@@ -468,8 +488,7 @@ private:
     state_.position = targetOf(context_, words_);
     tell(context_, kind, start);
     const Point between = state_.position;
-    const Truth all = interpretation_.both(interpretation_.truth(context_.behaviour().bareReferenceReturn),
-                                           interpretation_.negation(axisWords()));
+    const Truth all = returnsAll();
     for (const Axis axis : kAllAxes)
       if (const Truth homes = context_.either(isNamed(axis), all); interpretation_.mayBe(homes))
         home(axis, homes, word);

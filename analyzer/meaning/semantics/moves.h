@@ -41,6 +41,11 @@ template <typename Value> struct Move {
   bool isInterpolated = false;
 };
 
+/// `isSame` says of two coordinates that they are equal, for certain.
+template <typename Value, typename IsSame> bool mayMove(const Move<Value> &move, Axis axis, const IsSame &isSame) {
+  return !isSame(move.start[indexOf(axis)], move.end[indexOf(axis)]);
+}
+
 /// It may be anywhere in the box between its ends.
 template <typename Value> bool isInBox(const Move<Value> &move) {
   return move.kind == MoveKind::CutInBox || (move.kind == MoveKind::Rapid && !move.isInterpolated);

@@ -26,7 +26,7 @@ enum class Part : std::uint8_t {
   LocalShift,      // G52
   LengthOffset,
   LengthChanged,
-  AxisTurned,
+  AxisMoved,
   CycleBottom,
   CycleRetract,
   CycleInitial,
@@ -120,7 +120,7 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::MirrorAt:
   case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
   case Part::LengthChanged:
-  case Part::AxisTurned: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
+  case Part::AxisMoved: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
   case Part::KeptFirst: // like the modes that it belongs to, it is not left behind where there was none
   case Part::KeptSecond:
   case Part::PendingCoordinate: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Pending, PartNeutral::Vacant};
@@ -207,14 +207,14 @@ template <typename Member> ShapeMember shape(Member &) { return {}; }
 template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
-    auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
+    auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisMoved,
            cycle, transform, corner, kept, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters,
            savedCodes, savedWords, restoresModes] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(havocked), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
         is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
-        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), nested(corner), nested(kept),
+        is<Part::AxisMoved>(axisMoved), nested(cycle), nested(transform), nested(corner), nested(kept),
         is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
         is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters),
         is<Part::SavedCode>(savedCodes), is<Part::SavedWord>(savedWords), is<Part::RestoresModes>(restoresModes));

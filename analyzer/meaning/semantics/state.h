@@ -147,7 +147,7 @@ template <typename R> struct MachineState {
   std::array<Value, kAxisCount> local;         // of G52
   Value lengthOffset;                          // of G43, along Z
   Truth lengthChanged;                         // the program has set or taken away a tool length
-  Truth axisTurned;                            // an axis other than X, Y, Z has been moved since the start
+  std::array<Truth, kAxisCount> axisMoved;     // of those beside the regions: moved since the start, or perhaps
   CycleState<Value> cycle;
   TransformState<Value> transform;
   CornerState<Value> corner;

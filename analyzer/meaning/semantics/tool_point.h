@@ -23,11 +23,12 @@ template <ValueAlgebra R> struct ToolPoint {
   typename R::Truth sameUnits;           // as at the start
   typename R::Truth sameFeedMode;        // F means the same
   typename R::Truth sameSpindleMode;     // S means the same
-  typename R::Truth sameSide;            // no other axis has turned or moved the part, or the tool
+  typename R::Truth sameSide;            // no other axis but those of `fixed` has turned or moved the part, or the tool
 };
 
-/// Of the movements of the present block; `entry`: the state at the start.
-template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, MachineState<R> &entry);
+/// Of the movements of the present block; `entry`: the state at the start; `fixed`: those of `@FIXED`.
+template <ValueAlgebra R>
+ToolPoint<R> toolPointOf(StepContext<R> &context, MachineState<R> &entry, const AxisSet &fixed = {});
 
 // ---- implementation -----------------------------------------------------------------------------------------------
 
@@ -101,23 +102,26 @@ template <ValueAlgebra R> bool isPocket(const StepContext<R> &context) {
   });
 }
 
-/// The other axes stand where they stood at the start.
-template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry) {
+/// The axes that regions do not describe stand where they stood at the start, but for those of `fixed`.
+template <ValueAlgebra R>
+typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry, const AxisSet &fixed) {
   R &interpretation = context.interpretation;
-  if (!interpretation.mayBe(context.state.axisTurned))
-    return interpretation.truth(true);
   auto same = interpretation.truth(true);
-  for (const Axis axis : kAllAxes)
-    if (isBesideRegions(context.dialect(), axis)) {
-      const auto now = interpretation.add(context.state.at(axis), zeroShift(context, entry, axis));
-      same = interpretation.both(same, interpretation.compare(Relation::Equal, now, entry.at(axis)));
-    }
-  return context.either(interpretation.negation(context.state.axisTurned), same);
+  for (const Axis axis : kAllAxes) {
+    const auto &turned = context.state.axisMoved[indexOf(axis)];
+    if (fixed[indexOf(axis)] || !isBesideRegions(context.dialect(), axis) || !interpretation.mayBe(turned))
+      continue;
+    const auto now = interpretation.add(context.state.at(axis), zeroShift(context, entry, axis));
+    const auto isBack = interpretation.compare(Relation::Equal, now, entry.at(axis));
+    same = interpretation.both(same, context.either(interpretation.negation(turned), isBack));
+  }
+  return same;
 }
 
 } // namespace detail
 
-template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, MachineState<R> &entry) {
+template <ValueAlgebra R>
+ToolPoint<R> toolPointOf(StepContext<R> &context, MachineState<R> &entry, const AxisSet &fixed) {
   R &interpretation = context.interpretation;
   const auto always = interpretation.truth(true);
   const auto orAsAtEntry = [&](ModalKind kind, std::initializer_list<CodeAction> actions) {
@@ -136,7 +140,7 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
           orAsAtEntry(ModalKind::Units, {}),
           orAsAtEntry(ModalKind::FeedMode, {}),
           orAsAtEntry(ModalKind::Spindle, {}),
-          detail::isSameSide(context, entry)};
+          detail::isSameSide(context, entry, fixed)};
 }
 
 } // namespace feedhold

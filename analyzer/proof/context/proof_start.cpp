@@ -6,6 +6,7 @@
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
 #include "proof/replay/start_inputs.h"
+#include "proof/space/plain_space.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -226,6 +227,7 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   if (!contract)
     return options;
   options.keepWrites = !contract->assigns.empty();
+  options.fixed = fixedAxes(*contract);
   const bool asksOfSpace = hasSpaceClause(*contract) &&
                            std::ranges::any_of(kSpaceKinds, [&](ObligationKind kind) { return subject.wants(kind); });
   if (subject.wants(ObligationKind::Compensation) || asksOfSpace)

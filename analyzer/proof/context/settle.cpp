@@ -109,7 +109,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   WitnessSearch runs(start.interpretation(), subject.programs, subject.program, std::move(demands),
                      subject.constants());
   RunOptions options = start.runStart();
-  options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
+  options = followedAsSaid(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
   options.moves = asksForMoves(subject) ? RecordMoves::Yes : RecordMoves::No;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));

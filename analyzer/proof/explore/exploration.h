@@ -259,6 +259,7 @@ struct ExploreOptions {
   KeepMoves moves = KeepMoves::No;
   /// The offset of a D or of a T; empty: cutter compensation is not followed.  Moves are kept.
   OffsetOfCutter cutterOffset = {};
+  AxisSet fixed = {}; // of `@FIXED`
   bool keepWrites = false;
   /// Some of the steps are left for the claims, and for runs that refute them, if there are too many paths.
   bool leavesSteps = false;

@@ -21,7 +21,7 @@ void Explorer::takeMoves(Path &path) {
     return;
   }
   auto context = contextOf(path);
-  ToolPoint<SymbolicInterpretation> point = toolPointOf(context, entry_);
+  ToolPoint<SymbolicInterpretation> point = toolPointOf(context, entry_, options_.fixed);
   const auto level = [&](const SymbolicValue &z) {
     return interpretation_.add(z, point.zero[indexOf(Axis::Z)]).number;
   };
@@ -98,12 +98,13 @@ std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Mo
   return std::nullopt;
 }
 
-/// The tool stands at `end`, and has cut down to where it was before if X and Y are the same.
+/// The tool stands at `end`, and has cut down to where it was before if no axis but Z has moved.
 TermId Explorer::columnBehind(const Path &path, const Move<SymbolicValue> &move, TermId column, TermId end) {
-  const auto stays = [&](Axis axis) { return move.start[indexOf(axis)].number == move.end[indexOf(axis)].number; };
+  const auto isSame = [](const SymbolicValue &a, const SymbolicValue &b) { return a.number == b.number; };
   const auto holds = [&](TermId condition) { return entails_(interpretation_.facts(), path.conditions, condition); };
   const bool isStraight = move.kind == MoveKind::Rapid || move.kind == MoveKind::Feed || move.kind == MoveKind::Probe;
-  if (!isStraight || !stays(Axis::X) || !stays(Axis::Y))
+  if (!isStraight ||
+      std::ranges::any_of(kAllAxes, [&](Axis axis) { return axis != Axis::Z && mayMove(move, axis, isSame); }))
     return end;
   if (move.kind == MoveKind::Rapid) // what only a rapid move has gone through was no free space
     return column;

@@ -488,6 +488,9 @@ FreeSpace outside(TermStore &store, const Tool<TermId> &tool, const TermShape &p
   FreeSpace space = owning(store, tool, [&](const SpaceOf &of) {
     return match(part, [&](const auto &shape) { return of.outside(shape); });
   });
+  space.behindQuarter = [&store, radius = tool.radius, part](const QuarterArc &arc) {
+    return keepsOutBehind(store, arc, radius, part);
+  };
   space.isOpenUpwards = true; // the tool reaches up without end: higher up, less of it is there
   return space;
 }

@@ -5,7 +5,7 @@
 // may leave out some of it, where the exact border would be costly.
 #pragma once
 
-#include "proof/geometry/shapes.h"
+#include "proof/geometry/quarter_arc.h"
 #include "proof/smt/term.h"
 
 #include <string_view>
@@ -26,12 +26,15 @@ struct FreeSpace {
   /// All points about an upright axis that are as far from it as one of the ends, or between: their levels are not
   /// looked at.
   using Around = std::function<TermId(const TermPoint &centre, const std::vector<TermPoint> &ends)>;
+  /// All of the arc, at any level; absent: it cannot be told.
+  using BehindQuarter = std::function<std::optional<TermId>(const QuarterArc &arc)>;
 
   std::vector<Formula> convexParts;  // convex sets within it: who has corners in one of them has all that lies between
   Formula all;                       // all of it that is known
   std::vector<Formula> bounds = {};  // of a convex one: convex sets that it is what they have in common
   std::vector<Beyond> beyond = {};   // of a round one to keep out of
   std::optional<Around> around = {}; // of an upright cylinder: its first bound, or all of what is free beside it
+  BehindQuarter behindQuarter = {};  // of a region to keep out of that lies behind an arc; may be empty
   bool isOpenUpwards = false;        // who is in it is so, too, higher up
 
   bool isConvex() const { return !bounds.empty(); }

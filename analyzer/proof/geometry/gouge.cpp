@@ -90,7 +90,7 @@ std::optional<Deepest> insideOfRegion(const PlainRegion &region, const ToolReach
 }
 
 /// Rapid moves below the clearance height are free straight up, and straight down to where a cutting move has been
-/// since X and Y changed last: back into the hole.
+/// since any axis but Z last moved: back into the hole.
 class ClearanceWatch {
 public:
   explicit ClearanceWatch(double height) : height_(height) {}
@@ -101,7 +101,7 @@ public:
     const Point<double> &end = path.end();
     if (!hole_ || !isSamePlace(*hole_, start))
       hole_.reset();
-    const bool isUpright = path.isStraight() && isSamePlace(start, end);
+    const bool isUpright = path.isStraight() && isSamePlace(start, end) && !movesOtherAxis(recorded.move);
     std::optional<Deepest> found;
     if (recorded.move.kind == MoveKind::Rapid)
       found = isUpright ? depthUpright(start, end) : Deepest{lower(start, end), height_ - lower(start, end)[2]};
@@ -114,6 +114,10 @@ public:
   void forget() { hole_.reset(); }
 
 private:
+  static bool movesOtherAxis(const Move<ConcreteValue> &move) {
+    const auto isSame = [](const ConcreteValue &a, const ConcreteValue &b) { return a.number == b.number; };
+    return std::ranges::any_of(kAllAxes, [&](Axis axis) { return axis > Axis::Z && mayMove(move, axis, isSame); });
+  }
   static bool isSamePlace(const Point<double> &a, const Point<double> &b) {
     constexpr double kSame = 1e-9;
     return std::abs(a[0] - b[0]) <= kSame && std::abs(a[1] - b[1]) <= kSame;

@@ -242,6 +242,15 @@ TermPoint ToolPath::atCentre(TermPoint point) const {
   return point;
 }
 
+std::vector<QuarterArc> ToolPath::quarters() const {
+  if (!isUprightArc() || move_.turns > 1)
+    return {};
+  return quarterArcs(store_, {{move_.firstCentre, move_.secondCentre},
+                              {move_.start[0], move_.start[1]},
+                              {move_.end[0], move_.end[1]},
+                              move_.kind == MoveKind::ArcCounterclockwise});
+}
+
 /// The box around the full circle; of an arc whose ends are not as far from the centre, around the larger one.
 ToolPath::Hull ToolPath::arcHull() {
   const Spokes ends = spokes();

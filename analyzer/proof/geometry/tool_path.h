@@ -56,6 +56,8 @@ public:
   bool isVertical() const { return !isArc() && move_.start[0] == move_.end[0] && move_.start[1] == move_.end[1]; }
   /// An arc about an upright axis, whose centre is known.
   bool isUprightArc() const { return isArc() && !move_.radius && move_.plane.normal == Axis::Z; }
+  /// The quarter arcs that it may be; empty: none.
+  std::vector<QuarterArc> quarters() const;
   /// Of an arc: the same level, at its centre.
   TermPoint atCentre(TermPoint point) const;
 

@@ -24,7 +24,7 @@ ExampleRun started(const ProgramSet &programs, Callee program, const FileContrac
                    const GivenVariables &given) {
   RunOptions options{.variables = given, .fuel = kFuel};
   options = startedAsSaid(programs, program, contracts, std::move(options));
-  options = withCompensation(programs, program, &contracts, std::move(options));
+  options = followedAsSaid(programs, program, &contracts, std::move(options));
   RunResult result = run(programs, program, options);
   return {std::move(options), std::move(result)};
 }

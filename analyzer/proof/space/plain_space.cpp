@@ -122,10 +122,19 @@ RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileC
   return run;
 }
 
-RunOptions withCompensation(const ProgramSet &programs, Callee program, const FileContracts *contracts,
-                            RunOptions run) {
+AxisSet fixedAxes(const Contract &contract) {
+  AxisSet axes;
+  for (const char letter : contract.fixed ? contract.fixed->axes : std::string())
+    if (const auto axis = axisOf(letter))
+      axes.set(indexOf(*axis));
+  return axes;
+}
+
+RunOptions followedAsSaid(const ProgramSet &programs, Callee program, const FileContracts *contracts, RunOptions run) {
   run.cutter = CutterCompensation::Followed;
   const Contract *contract = contracts == nullptr ? nullptr : contracts->of(program.program);
+  if (contract != nullptr)
+    run.fixed = fixedAxes(*contract);
   if (contract != nullptr && (contract->tool || !contract->offsets.empty()))
     run.cutterRadius = [&programs, program, contracts](const RunOptions &started, double number) {
       return offsetIn(programs, program, *contracts, started, number);

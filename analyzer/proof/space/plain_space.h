@@ -17,8 +17,11 @@ double numberOf(const ProgramSet &programs, Callee program, const FileContracts 
 /// The same run, started as the contract says: with its modal codes, and where it says.
 RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run);
 
-/// The same run, with the path of the tool's centre.  The radius of `@TOOL` is taken for an offset that nothing gives.
-/// What it is given has to live as long as the options.
-RunOptions withCompensation(const ProgramSet &programs, Callee program, const FileContracts *contracts, RunOptions run);
+/// Of `@FIXED`.
+AxisSet fixedAxes(const Contract &contract);
+
+/// The same run, with the path of the tool's centre, and with the axes of `@FIXED`.  The radius of `@TOOL` is taken for
+/// an offset that nothing gives.  What it is given has to live as long as the options.
+RunOptions followedAsSaid(const ProgramSet &programs, Callee program, const FileContracts *contracts, RunOptions run);
 
 } // namespace feedhold::prove

@@ -1,11 +1,12 @@
 #include "proof/space/space_claims.h"
 
+#include "proof/space/plain_space.h"
 #include "proof/space/region_margins.h"
 #include "proof/space/region_shapes.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
+#include <iterator>
 
 namespace feedhold::prove {
 
@@ -13,17 +14,6 @@ using geometry::FreeSpace;
 using geometry::TermPoint;
 using geometry::TermShape;
 using smt::TermId;
-
-namespace {
-
-/// Where the path is an arc about an upright axis: that the circle lies in the space.
-std::optional<TermId> aroundOf(const FreeSpace &space, const geometry::ToolPath &path, const geometry::TermMove &move) {
-  if (!space.around || !path.isUprightArc())
-    return std::nullopt;
-  return (*space.around)(path.atCentre(move.start), {move.start, move.end});
-}
-
-} // namespace
 
 bool hasSpaceClause(const Contract &contract) {
   return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel ||
@@ -45,8 +35,8 @@ bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || kind == MoveKin
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
                          const SymbolicState &entry, const Dialect &dialect, smt::Number tolerance)
     : store_(store), terms_(terms), contract_(contract), entry_(entry), dialect_(dialect),
-      tolerance_(std::move(tolerance)), corner_(smt::Number::fromTyped(cornerOf(contract).toDouble())),
-      space_(store, tip()) {
+      tolerance_(std::move(tolerance)), fixed_(fixedAxes(contract)),
+      corner_(smt::Number::fromTyped(cornerOf(contract).toDouble())), space_(store, tip()) {
   if (!contract.lengths.empty())
     lengthInSpindle_ = terms.lengthInSpindle(contract, entry);
   addRegions(contract.keepIn, ObligationKind::KeepIn);
@@ -162,6 +152,20 @@ bool SpaceClaims::isOfProgrammed(const SpaceRule &rule) {
   return rule.kind == ObligationKind::Travel && !rule.isOfMachine;
 }
 
+/// One that regions do not describe.
+bool SpaceClaims::mayMoveBeside(const MoveInstance &instance, Axis axis) const {
+  const auto isSame = [](const SymbolicValue &a, const SymbolicValue &b) { return a == b; };
+  return isBesideRegions(dialect_, axis) && mayMove(instance.move, axis, isSame);
+}
+
+/// What to state of a rotary axis; absent: of one that is not known.
+std::string SpaceClaims::adviceOnAngles(std::optional<Axis> axis) const {
+  if (space_.isLathe() || (axis && isLinear(*axis)))
+    return {};
+  return axis ? fmt::format("; if the regions are the same at every angle of {0}, state `@FIXED {0}`", letterOf(*axis))
+              : "; if the regions are the same at every angle of a rotary axis, state `@FIXED` with its letter";
+}
+
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
   const MoveKind kind = instance.move.kind;
   const bool asksOfProgrammed = isOfProgrammed(rule) || rule.kind == ObligationKind::Limit;
@@ -179,8 +183,9 @@ std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance)
     return "the motion of this block is unknown: it could not be read, its code is not modelled, or the motion code or "
            "the plane at the start is unknown, which `@MODAL` states";
   for (const Axis axis : kAllAxes)
-    if (isBesideRegions(dialect_, axis) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
-      return fmt::format("axis {} moves; regions cover {} only", letterOf(axis), axesOfRegions());
+    if (!fixed_[indexOf(axis)] && mayMoveBeside(instance, axis))
+      return fmt::format("axis {} moves; regions cover {} only{}", letterOf(axis), axesOfRegions(),
+                         adviceOnAngles(axis));
   if (space_.isLathe() && isArc(instance.move.kind) && instance.move.plane.first != Axis::Z)
     return "the arc is not in the plane of X and Z (G18), which regions of a lathe describe";
   return std::nullopt;
@@ -221,29 +226,11 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
             : "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
               "was off at the start, state `@MODAL G49`; or the lengths of the tools, with `@LENGTH H* ..`");
   if (rule.kind != ObligationKind::Travel)
-    premises.emplace_back(
-        instance.point.sameSide.term,
-        fmt::format("an axis other than {} has moved since the start and may have rotated the part", axesOfRegions()));
+    premises.emplace_back(instance.point.sameSide.term,
+                          fmt::format("an axis other than {} has moved since the start and may have rotated the part{}",
+                                      axesOfRegions(), adviceOnAngles({})));
   addUnits();
   return premises;
-}
-
-/// All corners lie in one convex part, or beyond one of the ends.
-std::vector<TermId> SpaceClaims::simpleAlternatives(const FreeSpace &space,
-                                                    const std::vector<TermPoint> &corners) const {
-  const auto atAll = [&](const auto &formula) {
-    std::set<TermId> parts;
-    for (const TermPoint &corner : corners)
-      parts.insert(formula(corner));
-    return store_.logicalAnd(std::vector(parts.begin(), parts.end()));
-  };
-  std::vector<TermId> alternatives;
-  for (const geometry::Formula &part : space.convexParts)
-    alternatives.push_back(atAll(part));
-  for (const FreeSpace::Beyond &beyond : space.beyond)
-    for (const TermPoint &anchor : {corners.front(), corners.back()})
-      alternatives.push_back(atAll([&](const TermPoint &corner) { return beyond(anchor, corner); }));
-  return alternatives;
 }
 
 /// In the coordinates of the rule: those of the machine, or of the tip.
@@ -261,60 +248,10 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   const MoveInstance instance = placed(rule, asMoved);
   if (rule.kind == ObligationKind::Clearance)
     return {clearanceOf(rule, instance)};
-  const geometry::TermMove move = (isOfProgrammed(rule) ? space_.ofProgrammed() : space_).move(instance);
-  geometry::ToolPath path(store_, move);
+  PathQuestions asked(store_, (isOfProgrammed(rule) ? space_.ofProgrammed() : space_).move(instance));
   std::vector<SpaceQuestion> questions;
-  const geometry::ToolPath::Hull hull = path.hull();
-  const auto atCorners = [&](const geometry::Formula &part) {
-    std::set<TermId> corners;
-    for (const TermPoint &corner : hull.corners)
-      corners.insert(part(corner));
-    return corners;
-  };
-  const auto together = [&](const std::set<TermId> &terms) {
-    return store_.logicalAnd(std::vector(terms.begin(), terms.end()));
-  };
-  const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Alternative {
-    const geometry::PointOnPath any = path.anyPoint();
-    return {any.conditions, all(any.point)};
-  };
-  const auto isOfLevel = [&](const geometry::Formula &bound) { // speaks of the axis of the helix alone
-    return std::all_of(hull.corners.begin(), hull.corners.end(),
-                       [&](const TermPoint &corner) { return bound(corner) == bound(path.atCentre(corner)); });
-  };
-  for (const FreeSpace &space : rule.spaces) {
-    for (const geometry::Formula &bound : space.bounds) {
-      const std::set<TermId> corners = atCorners(bound);
-      SpaceQuestion &question =
-          questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners), hull.example}}});
-      if (const auto around = aroundOf(space, path, move); around && &bound == &space.bounds.front())
-        question.alternatives.push_back({{}, *around});
-      if (!path.isHull() && !isOfLevel(bound))
-        question.alternatives.push_back(anyPoint(bound));
-    }
-    if (space.isConvex())
-      continue;
-    SpaceQuestion &question = questions.emplace_back();
-    if (space.isOpenUpwards && path.isVertical()) { // all of it lies above its lower end
-      question.alternatives.push_back({{}, together(atCorners(space.all))});
-      continue;
-    }
-    const std::vector<TermId> simple = simpleAlternatives(space, hull.corners);
-    for (const TermId alternative : simple)
-      question.alternatives.push_back({hull.conditions, alternative, hull.example});
-    if (const auto around = aroundOf(space, path, move))
-      question.alternatives.push_back({{}, *around});
-    if (simple.size() > 1) // one or the other, as the case may be
-      question.alternatives.push_back({hull.conditions, store_.logicalOr(simple), hull.example});
-    if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
-      for (const TermId level : std::set{move.start[2], move.end[2]}) {
-        const geometry::PointOnPath any = path.anyPoint();
-        const TermId isAbove = store_.lessOrEqual(level, any.point[2]);
-        question.alternatives.push_back(
-            {any.conditions, store_.logicalAnd(isAbove, space.all({any.point[0], any.point[1], level}))});
-      }
-    question.alternatives.push_back(anyPoint(space.all));
-  }
+  for (const FreeSpace &space : rule.spaces)
+    std::ranges::move(asked.of(space), std::back_inserter(questions));
   return questions;
 }
 
@@ -328,6 +265,8 @@ SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance
   const TermId cut = store_.add(instance.column,
                                 lengthInSpindle_ ? terms_.mostAbove(contract_, entry_) : store_.number(smt::Number(0)));
   const TermId cleared = store_.logicalOr(store_.lessOrEqual(start[2], end[2]), store_.lessOrEqual(cut, end[2]));
+  if (std::ranges::any_of(kAllAxes, [&](Axis axis) { return mayMoveBeside(instance, axis); }))
+    return {{{{}, above}}};
   const std::array vertical{store_.equal(start[0], end[0]), store_.equal(start[1], end[1]), cleared};
   return {{{{}, store_.logicalOr(above, store_.logicalAnd(vertical))}}};
 }

@@ -3,8 +3,8 @@
 
 #include "proof/explore/exploration.h"
 #include "proof/geometry/gouge.h"
-#include "proof/geometry/tool_path.h"
 #include "proof/obligation/obligation.h"
+#include "proof/space/path_questions.h"
 #include "proof/space/region_shapes.h"
 #include "proof/space/term_space.h"
 #include "proof/symbolic/contract_terms.h"
@@ -28,16 +28,6 @@ struct SpaceRule {
 
 /// What a run is asked of a rule.
 geometry::SpaceClaim claimOf(const SpaceRule &rule);
-
-/// It holds if one of its alternatives does: the cheap ones first, the exact one last.
-struct SpaceQuestion {
-  struct Alternative {
-    std::vector<smt::TermId> conditions; // of new variables of the goal
-    smt::TermId goal;
-    std::vector<std::pair<smt::TermId, smt::TermId>> example = {}; // values that they allow, by variable
-  };
-  std::vector<Alternative> alternatives;
-};
 
 class SpaceClaims {
 public:
@@ -70,11 +60,11 @@ private:
   std::optional<Diameters<smt::TermId>> diameters() const;
   std::string_view axesOfRegions() const;
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
-  std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
-                                              const std::vector<geometry::TermPoint> &corners) const;
   static bool isOfProgrammed(const SpaceRule &rule);
   smt::Number distanceOf(geometry::SpaceClaim claim) const;
   MoveInstance placed(const SpaceRule &rule, MoveInstance instance) const;
+  bool mayMoveBeside(const MoveInstance &instance, Axis axis) const;
+  std::string adviceOnAngles(std::optional<Axis> axis) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 
   smt::TermStore &store_;
@@ -83,6 +73,7 @@ private:
   const SymbolicState &entry_;
   const Dialect &dialect_;
   smt::Number tolerance_;
+  AxisSet fixed_;      // at each of whose angles the regions are the same
   smt::Number corner_; // how far the tool may be from the programmed path
   TermSpace space_;
   std::vector<SpaceRule> rules_;

@@ -39,7 +39,7 @@ std::string nameOfPart(PartId id) {
   case Part::KeptFirst: // of the position
   case Part::KeptSecond:
   case Part::LengthChanged:
-  case Part::AxisTurned:
+  case Part::AxisMoved:
   case Part::CornerChamfer: // at the end none waits
   case Part::CornerRadius:
   case Part::CornerStart:
@@ -91,7 +91,7 @@ template <typename Visit>
 void forEachModalPart(const ModalTable &modes, const ModalPreserved &clause, SymbolicState &before, SymbolicState &now,
                       Visit visit) {
   forEachPart<Part::LocalVariable, Part::Variable, Part::Position, Part::KeptFirst, Part::KeptSecond,
-              Part::LengthChanged, Part::AxisTurned, Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord,
+              Part::LengthChanged, Part::AxisMoved, Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord,
               Part::RestoresModes>(
       [&](PartId id, auto &a, auto &b) {
         const bool isNoGroup = id.part == Part::Code && (id.key == 0 || modes.group(id.key).codes.empty());

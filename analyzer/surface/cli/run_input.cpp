@@ -313,7 +313,7 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
                      .numbers = numbersFor(input, *programs.file(start->file).dialect),
                      .missing = input.missing == "return" ? MissingPrograms::Return : MissingPrograms::Stop};
   options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
-  options = prove::withCompensation(*programs.set, *start, &programs.file(start->file).contracts, std::move(options));
+  options = prove::followedAsSaid(*programs.set, *start, &programs.file(start->file).contracts, std::move(options));
   return PreparedRun{loaded.take(), *start, std::move(options)};
 }
 

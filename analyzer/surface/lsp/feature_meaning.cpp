@@ -153,6 +153,7 @@ std::string_view helpOf(ClauseKind kind) {
   case ClauseKind::Length: return "the tool length that an H holds, for G43 and G44";
   case ClauseKind::Machine: return "the range of the axes in machine coordinates, and the reference position";
   case ClauseKind::Corner: return "how far the tool leaves the programmed path where the machine rounds corners";
+  case ClauseKind::Fixed: return "regions and tool are the same at every angle of these axes";
   case ClauseKind::KeepIn: return "during cutting moves, the whole tool stays inside this region";
   case ClauseKind::KeepOut: return "the tool never enters this region";
   case ClauseKind::Clearance: return "rapid moves stay at or above this height";

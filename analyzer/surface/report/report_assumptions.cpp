@@ -68,6 +68,11 @@ constexpr std::array kAssumptions = {
         "without that clause the offset is the radius of @TOOL. Offsets are not changed during the run. Where the "
         "path is not followed, claims are unknown or refuted by a run.",
         "the set-up sheet, the operator", "keep-in, keep-out, clearance, compensation"},
+    Assumption{"Regions are the same at every angle of the axes of @FIXED",
+               "Where the contract says @FIXED, its regions are the same at every angle of these axes, and so is the "
+               "tool. Without the clause, claims hold only while such axes stand where they stood at the "
+               "start.",
+               "the author of the contract", "keep-in, keep-out, clearance"},
     Assumption{
         "The control keeps to the path",
         "Where the contract says @CORNER, the tool leaves the programmed path by no more than that; elsewhere corner "

@@ -76,6 +76,8 @@ private:
         pick({"FLAT RADIUS 2.", "FLAT RADIUS .5", "BALL RADIUS 1.5", "BULL RADIUS 2. CORNER .5", "DRILL RADIUS 1.",
               "FLAT RADIUS [ABS[#3]+.5]", "BALL RADIUS [ABS[#2]/2+.25]", "BULL RADIUS 3. CORNER 1."}) +
         ")");
+    if (random_.oneIn(3))
+      add("(@FIXED " + pick({"A", "A B", "B"}) + ")");
   }
 
   // ---- parts ----
@@ -112,6 +114,8 @@ private:
       text += "Z" + place();
     if (random_.oneIn(4))
       text += "F" + pick({"100", "[100*#1]", "#14"});
+    if (random_.oneIn(12))
+      text += pick({"A0", "A90.", "A[90*#1]", "B#2"});
     return text;
   }
   std::string odd() {
@@ -324,6 +328,8 @@ private:
 
 Sample oneMovement(Random &random) { return {"fanuc-30i", OneMovement(random).run()}; }
 
-Sample millingProgram(Random &random) { return {"fanuc-30i", Writer(random).run()}; }
+Sample millingProgram(Random &random) {
+  return {random.oneIn(4) ? "fanuc-30i/lrp" : "fanuc-30i", Writer(random).run()};
+}
 
 } // namespace feedhold::proof_tests

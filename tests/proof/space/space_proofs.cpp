@@ -116,7 +116,7 @@ private:
     options.words = WordRounding::None;
     SpaceRun run{options.variables, {}, {}};
     options = prove::startedAsSaid(loaded_.set, loaded_.main(), contracts_, std::move(options));
-    options = prove::withCompensation(loaded_.set, loaded_.main(), &contracts_, std::move(options));
+    options = prove::followedAsSaid(loaded_.set, loaded_.main(), &contracts_, std::move(options));
     run.result = feedhold::run(loaded_.set, loaded_.main(), options);
     run.space = prove::plainSpace(loaded_.set, loaded_.main(), contracts_, options);
     return run;
