@@ -241,7 +241,7 @@ private:
     return std::nullopt;
   }
   bool isSeen(const SpaceRun &run, const Clause &clause, const prove::GougeAt &gouge) {
-    constexpr int kTries = 40;
+    constexpr int kTries = 400; // beside its path only a small cap of the tool may be wrong
     for (int i = 0; i < kTries; ++i)
       if (const SpacePoint at = toolAt(run.space, clause.claim, gouge.at);
           wrongPoint(run.space, clause.claim, clause.region, anyBeside(run.space, clause.claim, at, random_), kRounding,
