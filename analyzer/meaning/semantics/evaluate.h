@@ -148,7 +148,7 @@ private:
   }
   Value logic(OperatorKind op, const Value &left, const Value &right) {
     const auto integerOf = [&](const Value &value) {
-      return context_.behaviour().logicOfIntegerParts ? interpretation_.function(FunctionKind::Fix, value)
+      return context_.behaviour().logicOfIntegerParts ? integerPart(value, IntegerSide::Fix)
                                                       : interpretation_.roundTo(value, Decimal(1, 0));
     };
     if (context_.behaviour().logic == LogicMeaning::Bitwise)
