@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kFormat = "feedhold proof 9";
+constexpr std::string_view kFormat = "feedhold proof 10";
 /// Of the 256 folders: together 131072 proofs of some kilobytes each.
 constexpr std::size_t kMostInFolder = 512;
 

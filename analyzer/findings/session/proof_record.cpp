@@ -318,7 +318,7 @@ prove::Verdict readVerdict(Reader &reader, Place place) {
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
   const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning, promising, unchanged,
-               takesFewPasses] = obligation;
+               takesFewPasses, offsetIsOfTool] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -338,6 +338,7 @@ void write(Writer &writer, const Obligation &obligation) {
     writer.text(name);
   writer.number(unchanged ? 1 : 0);
   writer.number(takesFewPasses ? 1 : 0);
+  writer.number(offsetIsOfTool ? 1 : 0);
 }
 
 Obligation readObligation(Reader &reader) {
@@ -358,6 +359,7 @@ Obligation readObligation(Reader &reader) {
     obligation.promising.emplace_back(reader.text());
   obligation.unchanged = reader.numberUpTo(1) == 1;
   obligation.takesFewPasses = reader.numberUpTo(1) == 1;
+  obligation.offsetIsOfTool = reader.numberUpTo(1) == 1;
   return obligation;
 }
 

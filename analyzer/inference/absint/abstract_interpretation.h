@@ -12,6 +12,7 @@
 #include "meaning/semantics/step.h"
 
 #include <string_view>
+#include <variant>
 
 namespace feedhold {
 
@@ -123,12 +124,17 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable) const;
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
+  Value signalRead(std::uint32_t, double least, double most) {
+    return AbstractValue::number(AbstractNumber::integersIn({least, most}));
+  }
   Truth isReadFromOutside(std::uint32_t) const { return Truth::Maybe; }
   Value notFollowed(std::uint32_t) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void havocVariables(State &state, std::uint32_t first, std::uint32_t last);
   Value between(const Value &start, const Value &end) const;
+  void beginSkip() const {}
+  Value endOfSkip(const Value &start, const Value &end) const { return between(start, end); }
   void join(State &state, Truth truth, const State &second);
 
   // ---- what happens ----
@@ -147,6 +153,8 @@ public:
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why nothing is told of the program.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
+  std::monostate inExpression() const { return {}; }       // geometry has the same operations
+  Value asHeld(const Value &value) const { return value; } // hold() comes next
   void hold(Value &result, const Expression &expression) const {
     if (mayHaveMantissa32_)
       holdInMantissa32(result, expression);

@@ -10,12 +10,18 @@ namespace feedhold {
 
 namespace {
 
-bool isOfPath(const Word &word, const Dialect &dialect) {
+bool isOfPath(const Word &word, const Dialect &dialect, ContourCodes codes) {
   if (word.isCode()) {
     constexpr std::array kMotions = {CodeAction::Rapid, CodeAction::Linear, CodeAction::ArcClockwise,
                                      CodeAction::ArcCounterclockwise};
     const Code *code = codeOf(word, dialect);
-    return code && std::ranges::find(kMotions, code->action) != kMotions.end();
+    if (!code)
+      return false;
+    const bool isOfCompensation = code->action == CodeAction::CompensationOff ||
+                                  code->action == CodeAction::CompensationLeft ||
+                                  code->action == CodeAction::CompensationRight;
+    return (codes == ContourCodes::OfCompensation && isOfCompensation) ||
+           std::ranges::find(kMotions, code->action) != kMotions.end();
   }
   constexpr std::string_view kLetters = "NXZUWIKRF";
   return !word.has(Word::kComma) && word.form() != WordForm::Broken &&
@@ -46,12 +52,12 @@ bool isContourUnambiguous(const ProgramModel &model, BlockId cycle) {
 }
 
 bool isPlainContour(const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect,
-                    const ContourBlocks &contour) {
+                    const ContourBlocks &contour, ContourCodes codes) {
   constexpr std::uint16_t kOther = Block::kBroken | Block::kCommentTail | Block::kSkip | Block::kSkipInside;
   for (BlockId block = contour.first; block <= contour.last; block = block.next())
     if ((tree.blocks[block].flags & kOther) != 0 || !tree.statementsOf(block).empty() ||
         !model.callsIn(block, block.next()).empty() ||
-        !std::ranges::all_of(tree.wordsOf(block), [&](const Word &word) { return isOfPath(word, dialect); }))
+        !std::ranges::all_of(tree.wordsOf(block), [&](const Word &word) { return isOfPath(word, dialect, codes); }))
       return false;
   return true;
 }

@@ -15,8 +15,11 @@ std::optional<ContourBlocks> contourAt(const ProgramModel &model, BlockId cycle)
 /// P and Q each stand in one block of the program only.
 bool isContourUnambiguous(const ProgramModel &model, BlockId cycle);
 
-/// Straight lines, arcs and F: nothing that computes, calls, may be skipped, or changes a mode but that of motion.
+/// The codes that a contour has beside its path.
+enum class ContourCodes : std::uint8_t { OfPath, OfCompensation };
+/// Straight lines, arcs and F, perhaps with G40 to G42: nothing that computes, calls, may be skipped, or changes
+/// another mode.
 bool isPlainContour(const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect,
-                    const ContourBlocks &contour);
+                    const ContourBlocks &contour, ContourCodes codes = ContourCodes::OfPath);
 
 } // namespace feedhold

@@ -151,6 +151,10 @@ using Instruction = std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, Ju
                                  RequireLoop, StartCount, CountDown, CallProgram, ReturnFromProgram, PassedReturn,
                                  EndProgram, StopWithAlarm, Havoc, HavocVariables>;
 
+inline bool isCallOrReturn(const Instruction &instruction) {
+  return std::holds_alternative<CallProgram>(instruction) || std::holds_alternative<ReturnFromProgram>(instruction);
+}
+
 struct Node {
   BlockId block;
   NodeId next; // itself when nothing follows (EndProgram, ReturnFromProgram, StopWithAlarm, JumpTo)

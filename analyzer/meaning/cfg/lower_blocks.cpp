@@ -234,7 +234,7 @@ bool Lowering::passes(const ContourBlocks &contour) const {
   while (next < contour.first && isEmpty(tree_, next))
     next = next.next();
   return next == contour.first && !findAction(tree_, block_, dialect_, {CodeAction::FinishContour}) &&
-         isPlainContour(tree_, model_, dialect_, contour);
+         isPlainContour(tree_, model_, dialect_, contour, ContourCodes::OfCompensation);
 }
 
 /// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.

@@ -311,6 +311,8 @@ std::optional<std::uint32_t> ProgramSet::returnedValue() const {
 }
 
 std::string ProgramSet::nameOfVariable(std::uint32_t variable) const {
+  if (variable == kSkipShare)
+    return "#skip";
   if (const PredefinedName *name = naming_ ? findPredefinedName(*naming_, variable) : nullptr)
     return "#<" + std::string(name->row.name) + ">";
   if (variable < kFirstNamedVariable)

@@ -60,6 +60,9 @@ struct UnnumberedUses : UseCounts {
 /// Names of variables that are no numbers (`#<depth>`): from here on in the numbering of variables, so that every
 /// variable is one 32-bit number.
 inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
+/// No variable: its readings say how far skip moves (G31, G38.2) go before their signal comes, each a share of its way.
+/// 1: no signal comes.
+inline constexpr std::uint32_t kSkipShare = 0xDFFFFFFF;
 
 /// Names of what calls return, and of whether they have returned something.
 inline constexpr std::string_view kReturnedValue = "_value", kIsValueReturned = "_value_returned";

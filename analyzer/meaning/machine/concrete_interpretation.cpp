@@ -192,6 +192,12 @@ ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
   return Value::of((*script)[std::min(taken, script->size() - 1)]);
 }
 
+/// Without readings no signal comes.
+void ConcreteInterpretation::beginSkip() {
+  ++skips_;
+  skipShare_ = given_.readings.find(kSkipShare) ? volatileRead(kSkipShare).number : 1;
+}
+
 ConcreteValue ConcreteInterpretation::notFollowed(std::uint32_t variable) {
   if (isPredefinedName(variable) && isReadFromOutside(variable))
     return volatileRead(variable);

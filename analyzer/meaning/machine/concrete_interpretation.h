@@ -11,6 +11,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace feedhold {
@@ -154,13 +155,23 @@ public:
   std::span<const GivenVariables::Entry> allGiven() const { return given_.entries(); }
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
+  /// What is given beyond the ends is the nearer one.
+  Value signalRead(std::uint32_t variable, double least, double most) {
+    return Value::of(std::clamp(std::round(volatileRead(variable).number), least, most));
+  }
   bool isReadFromOutside(std::uint32_t variable) const { return source_ || given_.readings.find(variable); }
   /// What is given, or 0: one of many things that may be there.
   Value notFollowed(std::uint32_t variable);
   Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number
   bool writeAnyOf(State &, const Value &, const Value &, Span) const { return false; } // likewise
-  void havocVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so
-  Value between(const Value &, const Value &end) const { return end; } // no signal comes
+  void havocVariables(State &, std::uint32_t, std::uint32_t) const {} // they keep what they hold: a note says so
+  Value between(const Value &, const Value &end) const { return end; }
+  void beginSkip();
+  Value endOfSkip(const Value &start, const Value &end) const {
+    return skipShare_ == 1 ? end : Value::of(start.number + skipShare_ * (end.number - start.number));
+  }
+  /// Of the run.
+  std::uint64_t skips() const { return skips_; }
   void join(State &state, bool truth, const State &second) const {
     if (truth)
       state = second;
@@ -200,6 +211,8 @@ public:
       alarm(true, {AlarmKind::GCodeNotUsable, place});
   }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
+  std::monostate inExpression() const { return {}; }       // geometry has the same operations
+  Value asHeld(const Value &value) const { return value; } // hold() comes next
   void hold(Value &result, const Expression &expression) {
     if (numbers_ == NumberModel::Mantissa32)
       holdInMantissa32(result, expression.span);
@@ -222,6 +235,8 @@ private:
   std::vector<Move<Value>> moves_;
   std::vector<std::string_view> notes_;
   bool sawVolatile_ = false;
+  double skipShare_ = 1; // of the skip move that is made
+  std::uint64_t skips_ = 0;
   bool passedUnmodelled_ = false;
   static constexpr std::uint16_t kAllAxesLost = (1U << kAxisCount) - 1;
   std::uint16_t lostAxes_ = 0;

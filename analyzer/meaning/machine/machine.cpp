@@ -62,6 +62,7 @@ public:
     for (std::size_t i = 1; i < frames_.size(); ++i)
       result_.calls.push_back({frames_[i].call, frames_[i].callee});
     result_.state = std::move(state_);
+    result_.skips = interpretation_.skips();
     return std::move(result_);
   }
 
@@ -159,7 +160,10 @@ private:
   }
   /// The block has been executed, and its moves are recorded from `first` on.
   void compensate(Place here, std::size_t first) {
-    if (!std::holds_alternative<ExecuteWords>(node().instruction) || (words_.codes.empty() && words_.entries.empty()))
+    const Instruction &instruction = programs_.node(here).instruction;
+    if (isCallOrReturn(instruction))
+      cutter_.passCall();
+    if (!std::holds_alternative<ExecuteWords>(instruction) || (words_.codes.empty() && words_.entries.empty()))
       return;
     auto ctx = context();
     if (cutter_.isOff() && !mayCompensate(ctx) && !findPocket(words_))

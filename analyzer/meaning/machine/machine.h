@@ -88,6 +88,7 @@ struct RunResult {
   std::vector<OpenCall> calls;       // the innermost last
   std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed
+  std::uint64_t skips = 0;           // moves to a signal (G31, G38.2)
   MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves; // RecordMoves::No: none
   std::vector<RunNote> notes;      // what was not followed, each once for a place

@@ -50,6 +50,9 @@ concept HasValues = requires(R interpretation, const typename R::Value value, co
   { interpretation.either(value, value) } -> std::same_as<typename R::Value>;
   /// The place between two values where a signal stops a movement.
   { interpretation.between(value, value) } -> std::same_as<typename R::Value>;
+  /// A skip move begins, which ends there along each of its axes.
+  interpretation.beginSkip();
+  { interpretation.endOfSkip(value, value) } -> std::same_as<typename R::Value>;
 };
 
 /// Of numbers; divisors are not zero, arguments lie in the domain: the semantics has seen to it.
@@ -121,6 +124,8 @@ concept HasVariables = requires(R interpretation, const typename R::Value value,
   { interpretation.unwritten(state, variable) } -> std::same_as<typename R::Value>;
   /// A cell that may change between two reads: an input, a clock.
   { interpretation.volatileRead(variable) } -> std::same_as<typename R::Value>;
+  /// Of inputs of the machine, as bits: a whole number from `least` to `most`.
+  { interpretation.signalRead(variable, double(), double()) } -> std::same_as<typename R::Value>;
   /// Whether reads of the variable are given from outside, where nobody else says what it holds.
   { interpretation.isReadFromOutside(variable) } -> std::same_as<typename R::Truth>;
   /// A cell of the control that nothing here keeps up with: any number.
@@ -158,6 +163,11 @@ concept HearsEffects = requires(R interpretation, const typename R::Value value,
   interpretation.unlistedCode(state, CodeName{}, place);
   /// From here on nothing that the text says need hold, nor did it perhaps before: no claim on the program is made.
   interpretation.abandon(std::string_view(), place);
+  /// While what it returns lives, operations are those of an expression of the program; elsewhere they are the geometry
+  /// of its blocks, for which controls do not use the numbers of their variables.
+  interpretation.inExpression();
+  /// A number of the geometry, such as a position, as an expression finds it.
+  { interpretation.asHeld(value) } -> std::same_as<typename R::Value>;
   /// What the control keeps of the result of an expression: the number that its arithmetic has for it.
   interpretation.hold(result, expressionNode);
   /// Likewise of a sum or difference: how far it is rounded depends on the operands.

@@ -176,15 +176,15 @@ private:
       alarmsOfOtherGeometry(interpretation_.both(follows, other));
   }
   /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
-  /// parameter of most, and one that is accepted makes half a circle.  Controls count increments: what doubles add to
-  /// the ends of half a circle is no difference.
+  /// parameter of most, and one that is accepted makes half a circle.  Controls count increments: what their numbers
+  /// add to the radius or the ends of half a circle is no difference.
   Alarms alarmsOfRadius(const Circle &circle, const Point &start) {
     const Truth none = interpretation_.truth(false);
     Alarms alarms{none, none, none, none};
     const auto *entry = words_.find('R');
     if (!entry || !interpretation_.mayBe(circle.byRadius))
       return alarms;
-    constexpr double kNoDifference = 1e-10;
+    constexpr double kNoDifference = 1e-6; // a tenth of the least increment of any control: 0.00001 inch
     const Value word =
         interpretation_.function(FunctionKind::Abs, interpretation_.multiply(entry->value, circle.mapping.scale));
     const Value radius = interpretation_.add(word, interpretation_.number(kNoDifference));

@@ -22,7 +22,8 @@
 // ends, whatever d is, and so does the way back from there by e.  A control keeps e from the last first block of any
 // program, so that without one above it the cycle is not followed.  Of one block a setting says e (Setting 73 of Haas):
 // it is taken to be no more than d.  The box of a piece of G73 holds the piece at each shift.  Not followed: type II,
-// and contours with anything but straight lines, arcs and F.
+// and contours with anything but straight lines, arcs and F.  Of one with G40 to G42 it is known that the cycle ends
+// where it starts, and which modes the contour may leave.
 #pragma once
 
 #include "language/model/block_facts.h"
@@ -52,8 +53,10 @@ public:
       return action_ == CodeAction::RepeatContour ? learnShift() : learnDepth();
     const auto contour = contourOfBlock();
     const auto group = context_.modes.groupOf(ModalKind::Motion);
-    if (!contour || !group || !isReadable(*contour)) {
-      if (!contour || action_ == CodeAction::FinishContour)
+    if (!contour || !group || !isReadable(*contour, ContourCodes::OfPath)) {
+      if (contour && group && isReadable(*contour, ContourCodes::OfCompensation))
+        mayTakeModes(*contour, *group);
+      else if (!contour || action_ == CodeAction::FinishContour)
         forgetAll();
       return false;
     }
@@ -99,11 +102,11 @@ private:
     return isKnown ? contourAt(model, context_.block) : std::nullopt;
   }
 
-  bool isReadable(const ContourBlocks &contour) const {
+  bool isReadable(const ContourBlocks &contour, ContourCodes codes) const {
     const SyntaxTree &tree = context_.tree();
     if (contour.first <= context_.block && context_.block <= contour.last)
       return false;
-    if (!isPlainContour(tree, *context_.file.model, context_.dialect(), contour))
+    if (!isPlainContour(tree, *context_.file.model, context_.dialect(), contour, codes))
       return false;
     for (BlockId block = contour.first; block <= contour.last; block = block.next())
       if (!incrementsByLetter(context_) && (findWord(tree, block, 'U') || findWord(tree, block, 'W')))
@@ -122,15 +125,25 @@ private:
   /// Whether the code of motion and F of a contour that has only been read are in force behind the cycle, no manual
   /// says.
   void mayTakeModes(const ContourBlocks &contour, std::uint8_t group) {
+    const Code *compensation = nullptr; // the last
     for (BlockId block = contour.first; block <= contour.last; block = block.next())
       for (const Word &word : context_.tree().wordsOf(block)) {
         const Code *code = word.isCode() ? codeOf(word, context_.dialect()) : nullptr;
-        if (const auto index = code ? context_.modes.indexOf(*code) : std::nullopt)
-          state_.codes[group] =
-              interpretation_.selectCode(context_.maybeNot(), interpretation_.code(*index), state_.codes[group]);
+        if (code && code->group == group)
+          mayTake(*code);
+        else if (code)
+          compensation = code;
         if (word.address() == 'F')
           state_.word('F') = interpretation_.either(state_.word('F'), interpretation_.anyNumber());
       }
+    if (compensation)
+      mayTake(*compensation);
+  }
+  void mayTake(const Code &code) {
+    if (const auto index = context_.modes.indexOf(code)) {
+      auto &now = state_.codes[code.group];
+      now = interpretation_.selectCode(context_.maybeNot(), interpretation_.code(*index), now);
+    }
   }
 
   // ---- finishing ----

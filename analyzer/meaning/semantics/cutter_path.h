@@ -70,6 +70,8 @@ public:
 
   /// A block has been executed; its moves are those from `first` up to `end`.
   void take(Host &host, const Block &block, CutterPlace where, std::size_t first, std::size_t end);
+  /// A block has been passed that calls a program, or returns from one.
+  void passCall();
   /// No block follows.
   void finish(Host &host);
   /// Something came between that is not followed.
@@ -101,6 +103,7 @@ private:
     Place place;
     std::size_t depth;
     std::size_t idle = 0;                 // blocks behind it that do not move in the plane
+    std::size_t calls = 0;                // and calls and returns, which a control may count
     bool mayBeLast = false;               // to the control, which perhaps reads no further
     std::vector<std::size_t> behind = {}; // their moves
   };
@@ -126,6 +129,8 @@ private:
   void goOn(Host &host, std::size_t index, const At &at);
   void cancel(Host &host, std::size_t index, const At &at);
   void idle(Host &host, const Block &block);
+  bool isBeyondReading(std::size_t idle) const;
+  void mayBeBeyondReading();
 
   bool isInPlane(Host &host, const MoveOf &move) const;
   bool refusesArc(Host &host, const Element &element, const At &block);
@@ -428,13 +433,31 @@ template <typename Host> void CutterPath<Host>::idle(Host &host, const Block &bl
   if (!pending_ || phase_ != Phase::On)
     return;
   ++pending_->idle;
-  const std::size_t most = dialect_->behaviour.cutterBlocks;
-  if (most == 0 || !(block.stopsReading || block.namesPlane || pending_->idle > most - 2))
-    return;
+  const bool isRead = dialect_->behaviour.cutterBlocks != 0;
+  if (!isRead || !(block.stopsReading || block.namesPlane || isBeyondReading(pending_->idle)))
+    return mayBeBeyondReading();
   if (block.stopsReading || host.knowsReadAhead(*dialect_))
     failReading(host);
   else
     pending_->mayBeLast = true;
+}
+
+/// A control that reads a number of blocks ahead does not come to the next one that moves.
+template <typename Host> bool CutterPath<Host>::isBeyondReading(std::size_t idle) const {
+  const std::size_t most = dialect_->behaviour.cutterBlocks;
+  return most != 0 && idle > most - 2;
+}
+
+/// It is not known whether controls count calls and returns.
+template <typename Host> void CutterPath<Host>::mayBeBeyondReading() {
+  pending_->mayBeLast = pending_->mayBeLast || isBeyondReading(pending_->idle + pending_->calls);
+}
+
+template <typename Host> void CutterPath<Host>::passCall() {
+  if (!pending_ || phase_ != Phase::On)
+    return;
+  ++pending_->calls;
+  mayBeBeyondReading();
 }
 
 // ---- from one block to the next ----

@@ -358,10 +358,12 @@ private:
 
 template <ValueAlgebra R>
 typename R::Value evaluate(StepContext<R> &context, ExpressionId expression, RoundingUnit unit) {
+  [[maybe_unused]] const auto scope = context.interpretation.inExpression();
   return detail::Evaluator<R>(context, unit).value(expression);
 }
 
 template <ValueAlgebra R> typename R::Truth evaluateCondition(StepContext<R> &context, ExpressionId condition) {
+  [[maybe_unused]] const auto scope = context.interpretation.inExpression();
   return detail::Evaluator<R>(context, {}).condition(condition);
 }
 

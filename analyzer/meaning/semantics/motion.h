@@ -550,12 +550,15 @@ private:
         interpretation_.readPosition(axis);
     const MoveKind kind = isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Probe;
     const Point target = targetOf(context_, words_);
+    if (const auto plane = planeOf(context_); !plane || namesPlane(words_, *plane))
+      forgetKeptWords(context_); // where the signal comes at once, too
+    interpretation_.beginSkip();
     for (const Axis axis : kAllAxes)
       if (mayMove(context_, words_, axis))
-        state_.at(axis) = interpretation_.between(start[indexOf(axis)], target[indexOf(axis)]);
+        state_.at(axis) = interpretation_.endOfSkip(start[indexOf(axis)], target[indexOf(axis)]);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (incrementsByLetter(context_) && words_.find(letter))
-        state_.at(axis) = interpretation_.between(start[indexOf(axis)], target[indexOf(axis)]);
+        state_.at(axis) = interpretation_.endOfSkip(start[indexOf(axis)], target[indexOf(axis)]);
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::SkipPosition)
         for (std::uint32_t axis = 0; axis < kAxisCount && range.first + axis <= range.last; ++axis)

@@ -134,11 +134,12 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::SetOffset:
   case VariableRole::WorkRotation:
   case VariableRole::Reference:
-  case VariableRole::SecondReference:
-  case VariableRole::SkipPosition: return storedValue(context, number);
+  case VariableRole::SecondReference: return storedValue(context, number);
+  case VariableRole::SkipPosition: return interpretation.asHeld(storedValue(context, number));
+  case VariableRole::Signal: return interpretation.signalRead(number, 0, 1);
+  case VariableRole::SignalWord: // what the last of 32 bits counts for, manuals tell in two ways
+    return interpretation.signalRead(number, -2147483648.0, 4294967295.0);
   case VariableRole::Volatile:
-  case VariableRole::Signal:
-  case VariableRole::SignalWord:
   case VariableRole::Clock:
   case VariableRole::Alarm:
   case VariableRole::MessageStop: return interpretation.volatileRead(number);
@@ -154,7 +155,7 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   }
   case VariableRole::BlockEndPosition:
   case VariableRole::MachinePosition:
-  case VariableRole::WorkPosition: return readPosition(context, range, number);
+  case VariableRole::WorkPosition: return interpretation.asHeld(readPosition(context, range, number));
   case VariableRole::Pi: return interpretation.number(3.14159265358979323846);
   case VariableRole::EulersNumber: return interpretation.number(2.71828182845904523536);
   case VariableRole::Predefined:

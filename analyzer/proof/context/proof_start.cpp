@@ -2,6 +2,7 @@
 
 #include "meaning/semantics/mappings.h"
 #include "proof/context/call_promises.h"
+#include "proof/context/head_bounds.h"
 #include "proof/context/index_ranges.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
@@ -212,6 +213,17 @@ PathOffset ProofStart::rangeOf(const RadiusOffset &offset, TermId number) {
   return result;
 }
 
+std::vector<std::pair<double, double>> ProofStart::offsetsIn(const smt::Model &model) const {
+  std::vector<std::pair<double, double>> offsets;
+  for (const auto &[key, radius] : radii_) {
+    const auto held = model.find(store_[radius].name);
+    const auto number = held == model.end() ? std::nullopt : smt::evaluate(store_, key.second, model);
+    if (number)
+      offsets.emplace_back(std::get<smt::Number>(*number).toDouble(), std::get<smt::Number>(held->second).toDouble());
+  }
+  return offsets;
+}
+
 /// Hints are tried, never believed: an invariant has to hold before each iteration, a ranking function has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
@@ -223,6 +235,9 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   options.relyOn = options.missing == MissingPrograms::Return ? Reliance::Missing : Reliance::Nobody;
   options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };
   const Contract *contract = subject.contract();
+  options.boundsAt = [this, &subject](const std::set<Place> &heads) {
+    return boundsAt(heads, store_, subject.programs, subject.program, subject.contracts);
+  };
   options.leavesSteps = !contract; // there are few of them without one
   if (!contract)
     return options;

@@ -68,6 +68,9 @@ public:
   /// What neither says.
   StartInputs openStart(const Dialect &dialect) const;
 
+  /// The radii that a model has for ranges of `@OFFSET`, by number of D.
+  std::vector<std::pair<double, double>> offsetsIn(const smt::Model &model) const;
+
   /// All conditions of a path, and what is known of the variables in them.
   Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal);
   /// What the contract adds to the options of an exploration, which then refer to this and to the subject.

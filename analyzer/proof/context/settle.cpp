@@ -120,6 +120,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   runs.followExactly([&subject](const GivenVariables &given) {
     return FollowedRun(subject, given, Arithmetic::Exact, Outcomes::Usual).found();
   });
+  runs.readOffsets([&start](const smt::Model &model) { return start.offsetsIn(model); });
   runs.sample();
   return runs;
 }

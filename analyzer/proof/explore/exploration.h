@@ -246,6 +246,8 @@ struct ExploreOptions {
   /// refutations alone.
   bool mayEnclose = false;
   LoopHints invariants = {}; // tried with those that are guessed
+  /// Bounds of variables at heads of loops, tried as well where numbers may be too large for exact results.
+  std::function<LoopHints(const std::set<Place> &heads)> boundsAt = {};
   InvariantSearch search = InvariantSearch::Usual;
   LoopHints rankingHints = {}; // kept for LoopInstance::rankingHints
   MissingPrograms missing = MissingPrograms::DoAnything;

@@ -385,6 +385,8 @@ std::vector<Path> Explorer::executeInstruction(Path path) {
     if (!takeStops(path))
       return {};
   }
+  if (isCallOrReturn(instruction))
+    passCallInCutter(path);
   return match(
       instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },
       [&](const Test &test) { return follow(std::move(path), test); },
@@ -535,7 +537,30 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
 
 } // namespace
 
-/// Results are taken as exact where they may be, until it turns out that one may be too large.
+namespace {
+
+/// Both.
+LoopHints joined(LoopHints first, LoopHints second) {
+  if (!first || !second)
+    return first ? first : second;
+  return [first = std::move(first), second = std::move(second)](Place head, const SymbolicState &state) {
+    std::vector<TermId> all = first(head, state);
+    std::ranges::move(second(head, state), std::back_inserter(all));
+    return all;
+  };
+}
+
+std::set<Place> headsOf(const Exploration &found) {
+  std::set<Place> heads;
+  for (const LoopInstance &loop : found.loops)
+    heads.insert(loop.head);
+  return heads;
+}
+
+} // namespace
+
+/// Results are taken as exact where they may be, until it turns out that one may be too large, also with bounds from
+/// elsewhere.
 Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                     const SymbolicState &start, ExploreOptions options) {
   constexpr int kMostRounds = 4;
@@ -544,6 +569,10 @@ Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &pr
     if (found.inexact.empty() || found.incomplete)
       return found;
     options.merging = found.merging; // terms only grow: with less merging there would be too many paths again
+    if (const auto boundsAt = std::exchange(options.boundsAt, {}); boundsAt && !found.loops.empty()) {
+      options.invariants = joined(std::move(options.invariants), boundsAt(headsOf(found)));
+      continue;
+    }
     for (const Place place : found.inexact)
       interpretation.roundAlways(place);
     if (round == kMostRounds) {

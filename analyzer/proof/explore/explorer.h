@@ -112,6 +112,7 @@ private:
   void stopInCutter(const Path &path, const CutterTrack &track);
   void leaveOpen(PathCutter &host, CutterTrack &track, std::string_view why);
   void loseCutter(Path &path, std::string_view reason);
+  static void passCallInCutter(Path &path);
   void endCutter(Path &path, smt::TermId when);
   // ---- writes (explorer_writes.cpp) ----
   struct StepWrites {

@@ -116,6 +116,14 @@ std::optional<PathOffset> Explorer::writtenOffset(Path &path, const SymbolicValu
   return PathOffset{.radius = isDiameter ? store_.scale(smt::Number(1) / smt::Number(2), radius) : radius};
 }
 
+void Explorer::passCallInCutter(Path &path) {
+  if (!path.cutter)
+    return;
+  auto track = std::make_shared<CutterTrack>(*path.cutter);
+  track->walk.passCall();
+  path.cutter = std::move(track);
+}
+
 /// The block has been executed.  True: its moves are taken here, in place of the explorer.
 bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, TermId besidePath) {
   const bool isBlock = std::holds_alternative<ExecuteWords>(nodeOf(path).instruction) &&

@@ -31,6 +31,7 @@ struct Obligation {
   std::vector<std::string> promising = {};
   bool unchanged = false;      // of a verdict that holds if those programs change nothing, too
   bool takesFewPasses = false; // of a verdict that holds if no loop makes more than kMostPasses
+  bool offsetIsOfTool = false; // of a verdict that holds if the offsets of D are the radius of `@TOOL`
 };
 
 /// Of one program, from different stages of its proof.

@@ -48,6 +48,7 @@ public:
       witnesses_->sampleVariants();
       witnesses_->sampleDecimals({});
     }
+    witnesses_->sampleSkips();
     witnesses_->sampleSignals();
   }
 
@@ -108,6 +109,7 @@ private:
       witnesses_->sampleAround(*model);
     const std::vector<InputEnds> ends = start_.terms().inputEnds(*subject_.contract(), start_.entry());
     witnesses_->sampleEnds(ends);
+    witnesses_->sampleOffsetEnds(start_.terms().offsetEnds(*subject_.contract(), start_.entry()));
     witnesses_->sampleOtherModes();
     witnesses_->sampleDecimals(ends);
   }
@@ -167,8 +169,15 @@ private:
       if (row.verdict.holds()) {
         row.returning.assign(names.begin(), names.end());
         row.promising.assign(promising.begin(), promising.end());
+        row.offsetIsOfTool = row.kind == ObligationKind::Compensation && takesOffsetOfTool();
       }
     nameSkipped(rows);
+  }
+  /// No clause tells the offsets of D.  On a lathe they are those of the nose.
+  bool takesOffsetOfTool() const {
+    const Contract *contract = subject_.contract();
+    return contract && contract->tool && contract->offsets.empty() &&
+           subject_.dialect().machine != MachineKind::Turning;
   }
   void nameSkipped(std::vector<Obligation> &rows) const {
     if (returning().empty())

@@ -109,7 +109,7 @@ Witness WitnessSearch::withPlainReadings(Witness witness, const Violation &viola
   };
   const InputReadings readings = witness.variables.readings;
   for (const auto &[variable, all] : readings.entries()) {
-    if (taken(variable, {}))
+    if (taken(variable, {}) || variable == kSkipShare)
       continue;
     std::vector<double> script = all;
     for (std::size_t size = 1; size < script.size(); ++size)

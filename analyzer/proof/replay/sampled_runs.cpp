@@ -83,6 +83,57 @@ void WitnessSearch::sampleOffsets() {
     }
 }
 
+std::optional<std::uint32_t> WitnessSearch::offsetCell(double number) const {
+  const Dialect &dialect = *programs_.file(entry_.file).dialect;
+  const OffsetMemory &memory = dialect.behaviour.cutterOffsets;
+  if (!(number >= 1 && number <= memory.count) || number != std::floor(number))
+    return std::nullopt;
+  return cellOf(dialect, memory.geometry.front() + static_cast<std::uint32_t>(number) - 1);
+}
+
+void WitnessSearch::sampleOffsetEnds(const std::vector<OffsetEnd> &ends) {
+  constexpr std::size_t kBases = 12; // calls
+  const std::size_t known = ends.empty() ? 0 : samples_.size();
+  for (std::size_t base = 0; base < std::min(known, kBases); ++base) {
+    GivenVariables given = samples_[base * known / std::min(known, kBases)].given;
+    for (const OffsetEnd &end : ends) {
+      const auto number = endIn(given, end.number), radius = endIn(given, end.radius);
+      const auto cell = number ? offsetCell(*number) : std::nullopt;
+      const std::vector<std::uint32_t> cells =
+          end.number ? (cell ? std::vector{*cell} : std::vector<std::uint32_t>()) : offsetsNamed();
+      for (const std::uint32_t each : cells)
+        if (radius)
+          given.set(each, ConcreteValue::of(*radius));
+    }
+    keepSample(std::move(given));
+  }
+}
+
+void WitnessSearch::addOffsets(GivenVariables &given, const smt::Model &model) const {
+  if (!offsets_)
+    return;
+  for (const auto &[number, radius] : offsets_(model))
+    if (const auto cell = offsetCell(number); cell && !given.find(*cell))
+      given.set(*cell, ConcreteValue::of(radius));
+}
+
+void WitnessSearch::sampleSkips() {
+  constexpr std::size_t kBases = 8; // runs
+  constexpr double kStart = 0, kEnd = 1;
+  static const std::vector<std::vector<double>> kShares = {{0.5},       {0.9},       {0.1},      {kStart},
+                                                           {0.5, kEnd}, {kEnd, 0.5}, {0.9, 0.8}, {0.25, 0.75}};
+  std::vector<std::size_t> bases;
+  for (std::size_t i = 0; i < samples_.size() && bases.size() < kBases; ++i)
+    if (samples_[i].result.skips > 0)
+      bases.push_back(i);
+  for (const std::size_t base : bases)
+    for (const std::vector<double> &shares : kShares) {
+      GivenVariables given = samples_[base].given;
+      given.readings.set(kSkipShare, shares);
+      keepSample(std::move(given));
+    }
+}
+
 /// Of a call, what the program reads.
 GivenVariables WitnessSearch::readBy(const GivenVariables &call) const {
   GivenVariables given;

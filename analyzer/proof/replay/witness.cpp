@@ -163,6 +163,8 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
   const Dialect &dialect = *programs_.file(entry_.file).dialect;
   GivenVariables first = given;
   for (const auto &[variable, script] : given.readings.entries()) {
+    if (variable == kSkipShare && std::ranges::all_of(script, [](double share) { return 0 <= share && share <= 1; }))
+      continue;
     const VariableRange *range = findVariable(dialect, variable);
     if (!readsAnything(variable) && (!range || !mayRead(*range, script)))
       return false;
@@ -362,6 +364,7 @@ GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
       given.set(variable, ConcreteValue::of(0));
   }
   addStartReads(given, model);
+  addOffsets(given, model);
   given.start = open_.startOf(store, model);
   return given;
 }

@@ -49,6 +49,9 @@ struct Violation {
   std::optional<OfBlock> ofBlock = {};
 };
 
+/// The radii that a model has for offsets: by number of D.
+using OffsetsOfModel = std::function<std::vector<std::pair<double, double>>(const smt::Model &)>;
+
 class WitnessSearch {
 public:
   /// `demands`: what the inputs have to satisfy.
@@ -57,6 +60,8 @@ public:
 
   /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
   /// one starts at 0.  `open`: what else a witness may say of the start.
+  /// What a model says of offsets of D.
+  void readOffsets(OffsetsOfModel offsets) { offsets_ = std::move(offsets); }
   void startFrom(RunOptions start, std::map<Axis, smt::TermId> place, StartInputs open) {
     start_ = std::move(start);
     place_ = std::move(place);
@@ -85,11 +90,16 @@ public:
   void sampleAround(const smt::Model &allowed);
   /// At the ends of what the inputs may be, and midway: where claims break first.
   void sampleEnds(const std::vector<InputEnds> &ends);
+  /// Some of the runs so far, with offsets of D at the upper ends of their ranges: without a number they are at the
+  /// lower ones.
+  void sampleOffsetEnds(const std::vector<OffsetEnd> &ends);
   /// On numbers with a few digits behind the point, which the control rounds; between the ends where these are known.
   void sampleDecimals(const std::vector<InputEnds> &ends);
   /// Variants of the runs so far, each kept if it ends at another place or in another way: programs that check what
   /// they are given let few other runs through.
   void sampleVariants();
+  /// Some of these runs with skip moves, whose signals come on the way.
+  void sampleSkips();
   /// Some of these runs, with other answers where they read signals: each is kept if it ends in a new way.
   void sampleSignals();
   /// Inputs that are allowed, of small whole numbers: runs on them show how loops go on.
@@ -147,6 +157,8 @@ private:
   /// The cells of the cutter offsets that the program names by D.
   std::vector<std::uint32_t> offsetsNamed() const;
   void sampleOffsets();
+  std::optional<std::uint32_t> offsetCell(double number) const;
+  void addOffsets(GivenVariables &given, const smt::Model &model) const;
   /// What the machine, or a program that is not in the files, gives it is bound by nothing.
   bool readsAnything(std::uint32_t variable) const;
   std::set<std::uint32_t> signalsRead() const;
@@ -184,6 +196,7 @@ private:
   std::vector<smt::TermId> demands_;
   std::vector<double> constants_; // that the program and its contract write
   RunOptions start_;
+  OffsetsOfModel offsets_ = nullptr;
   std::map<Axis, smt::TermId> place_;
   StartInputs open_;
   std::vector<Sample> samples_;

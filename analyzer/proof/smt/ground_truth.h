@@ -1,4 +1,4 @@
-// GroundTruth: what a condition without variables is, by enclosing its numbers.
+// GroundTruth: what a condition or a number without variables is, by enclosing numbers.
 #pragma once
 
 #include "inference/domain/interval.h"
@@ -16,6 +16,7 @@ public:
   explicit GroundTruth(const TermStore &store) : store_(store) {}
 
   std::optional<bool> of(TermId condition) { return truth(condition, 0); }
+  std::optional<Interval> ofNumber(TermId number) { return enclose(number, 0); }
 
 private:
   std::optional<bool> truth(TermId condition, int depth);

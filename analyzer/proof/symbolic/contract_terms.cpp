@@ -335,6 +335,15 @@ std::vector<InputEnds> ContractTerms::inputEnds(const Contract &contract, const 
   return ends;
 }
 
+std::vector<OffsetEnd> ContractTerms::offsetEnds(const Contract &contract, const SymbolicState &entry) {
+  std::vector<OffsetEnd> ends;
+  for (const RadiusOffset &offset : contract.offsets)
+    if (offset.radius.high && offset.radius.low != offset.radius.high)
+      ends.push_back({offset.number ? std::optional(value(*offset.number, entry).number) : std::nullopt,
+                      value(*offset.radius.high, entry).number});
+  return ends;
+}
+
 std::vector<TermId> ContractTerms::modesOfStart(const Contract &contract, const SymbolicState &started) {
   SymbolicState prepared = started;
   prepare(contract, prepared);

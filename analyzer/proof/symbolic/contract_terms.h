@@ -18,6 +18,12 @@ struct InputEnds {
   std::optional<smt::TermId> low, high;
 };
 
+/// The upper end of a range of `@OFFSET`.
+struct OffsetEnd {
+  std::optional<smt::TermId> number; // of D; absent: of each
+  smt::TermId radius;
+};
+
 /// What a contract says of the numbers that inputs hold, by variable.
 std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract);
 /// The variables of whose values on entry some clause speaks: `OLD[#510]`.
@@ -57,6 +63,7 @@ public:
 
   /// Between which ends the contract has the inputs, in its order; those it bounds.
   std::vector<InputEnds> inputEnds(const Contract &contract, const SymbolicState &entry);
+  std::vector<OffsetEnd> offsetEnds(const Contract &contract, const SymbolicState &entry);
 
   /// The length of the tool that is in the spindle, whichever it is: as one of the clauses says.
   smt::TermId lengthInSpindle(const Contract &contract, const SymbolicState &entry);

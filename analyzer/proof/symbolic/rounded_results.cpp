@@ -42,10 +42,16 @@ SymbolicValue SymbolicInterpretation::literal(Decimal value) {
 
 /// What a control with shorter mantissas keeps of a literal in an expression.  Coordinates stay as they are written.
 void SymbolicInterpretation::hold(Value &value, const Expression &expression) {
-  const auto *literal = std::get_if<NumberLiteral>(&expression.node);
-  if (!literal || !hasShortMantissas() || !store_.isNumber(value.number) || isShort(store_[value.number].number))
-    return;
-  value.number = inShortMantissa(value.number);
+  if (std::holds_alternative<NumberLiteral>(expression.node))
+    value = asHeld(value);
+}
+
+SymbolicValue SymbolicInterpretation::asHeld(const Value &value) {
+  if (!hasShortMantissas())
+    return value;
+  const bool fits =
+      store_.isNumber(value.number) ? isShort(store_[value.number].number) : grids_.of(value.number).value_or(-1) >= 0;
+  return fits ? value : Value{value.vacant, inShortMantissa(value.number)};
 }
 
 TermId SymbolicInterpretation::inShortMantissa(TermId number) {
@@ -204,6 +210,15 @@ SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exa
   return value;
 }
 
+/// What the machine makes of a number without variables, if it makes the same of all that the control may have for it:
+/// multiplying by the steps and rounding keep the order.
+std::optional<double> SymbolicInterpretation::onlyWord(TermId number, Decimal step) {
+  const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
+  const auto wordOf = [steps](double value) { return std::round(value * steps) / steps; };
+  const auto values = groundTruth_.ofNumber(number);
+  return values && wordOf(values->lo) == wordOf(values->hi) ? std::optional(wordOf(values->lo)) : std::nullopt;
+}
+
 /// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value
 /// together.  Coordinates are small; where that is not proved, the distance goes by the value.  What is rounded to the
 /// nearest keeps its size with the other sign: of a number and its negation one word is made, of which that is the
@@ -211,10 +226,8 @@ SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exa
 SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
   if (const auto word = inEachCase(value, value, [&](const Value &x, const Value &) { return roundedWord(x, step); }))
     return *word;
-  if (const auto constant = constantOf(value)) {
-    const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
-    return number(std::round(*constant * steps) / steps);
-  }
+  if (const auto word = onlyWord(value.number, step))
+    return number(*word);
   if (const auto word = isRoundedHere() ? std::nullopt : increments_.wordOf(value.number, numberOf(step), exact_))
     return of(*word);
   const TermId opposite = store_.negate(value.number);

@@ -221,6 +221,14 @@ SymbolicValue SymbolicInterpretation::between(const Value &start, const Value &e
   return stop;
 }
 
+void SymbolicInterpretation::beginSkip() {
+  const bool isGiven = readings_ && readings_->contains(kSkipShare);
+  skipShare_ = isGiven ? std::optional(volatileRead(kSkipShare)) : std::nullopt;
+}
+SymbolicValue SymbolicInterpretation::endOfSkip(const Value &start, const Value &end) {
+  return skipShare_ ? add(start, multiply(*skipShare_, subtract(end, start))) : between(start, end);
+}
+
 // ---- arithmetic ----
 
 /// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a

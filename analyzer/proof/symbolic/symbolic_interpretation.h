@@ -10,6 +10,7 @@
 
 #include "meaning/semantics/parts.h"
 #include "meaning/semantics/step.h"
+#include "proof/smt/ground_truth.h"
 #include "proof/smt/term.h"
 #include "proof/symbolic/grids.h"
 #include "proof/symbolic/increments.h"
@@ -94,7 +95,8 @@ public:
   using State = SymbolicState;
 
   SymbolicInterpretation(smt::TermStore &store, const Dialect &dialect, Arithmetic arithmetic = Arithmetic::Exact)
-      : store_(store), dialect_(&dialect), arithmetic_(arithmetic), grids_(store), increments_(store) {}
+      : store_(store), dialect_(&dialect), arithmetic_(arithmetic), grids_(store), increments_(store),
+        groundTruth_(store) {}
 
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
@@ -104,7 +106,8 @@ public:
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   smt::TermStore &store() { return store_; }
   Arithmetic arithmetic() const { return arithmetic_; }
-  /// How results are rounded: not at all, as doubles, or in the number model of the dialect.
+  /// How results are rounded: not at all, as doubles (geometry, as `run` computes it), or in the number model of the
+  /// dialect (expressions of the program).
   enum class Rounds : std::uint8_t { No, AsDoubles, AsDialect };
   /// Exact arithmetic rounds nothing.  Returns what it was.
   Rounds roundResults(Rounds rounds) {
@@ -232,6 +235,8 @@ public:
     return takesUsual_ ? first : select(unknownTruth(), first, second);
   }
   Value between(const Value &start, const Value &end);
+  void beginSkip();
+  Value endOfSkip(const Value &start, const Value &end);
 
   // ---- arithmetic ----
   Value add(const Value &a, const Value &b);
@@ -275,6 +280,7 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable);
   Value volatileRead(std::uint32_t variable);
+  Value signalRead(std::uint32_t variable, double least, double most);
   Truth isReadFromOutside(std::uint32_t variable) {
     return readings_ ? truth(readings_->contains(variable)) : unknownTruth();
   }
@@ -294,12 +300,32 @@ public:
   std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
   void unlistedCode(State &state, const CodeName &code, Span place);
+  /// Results are rounded so while it lives.
+  class Rounding {
+  public:
+    Rounding(SymbolicInterpretation &interpretation, Rounds rounds)
+        : interpretation_(interpretation), before_(interpretation.roundResults(rounds)) {}
+    Rounding(const Rounding &) = delete;
+    Rounding &operator=(const Rounding &) = delete;
+    ~Rounding() { interpretation_.roundResults(before_); }
+
+  private:
+    SymbolicInterpretation &interpretation_;
+    Rounds before_;
+  };
+  /// Not of a contract, whose expressions are evaluated in doubles.
+  Rounding inExpression() {
+    const bool isOfProgram = rounds_ == Rounds::AsDoubles && !isContract_;
+    return {*this, isOfProgram ? Rounds::AsDialect : rounds_};
+  }
+  Value asHeld(const Value &value);
   void hold(Value &value, const Expression &expression);
   void holdSum(Value &, OperatorKind, const Value &, const Value &) const {}
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
   Value of(smt::TermId number);
+  Value readOf(std::uint32_t variable, smt::Sort sort);
   /// The operation on two numbers in the cases of one condition; absent where they are not in such cases.
   template <typename Compute> std::optional<Value> inEachCase(const Value &a, const Value &b, const Compute &compute);
   void tieToCode(smt::TermId number, ModalCode code, const ModalTable &modes, std::uint8_t group);
@@ -316,6 +342,7 @@ private:
   smt::TermId asTyped(smt::TermId decimal);
   Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
   Value roundedWord(const Value &value, Decimal step);
+  std::optional<double> onlyWord(smt::TermId number, Decimal step);
   smt::TermId distanceOfWord(smt::TermId exact, const smt::Number &half);
   Truth equal(const Value &a, const Value &b);
   bool isRoundedHere() const { return place_ && rounded_.contains(*place_); }
@@ -355,6 +382,7 @@ private:
   std::optional<smt::TermId> tolerance_;
   Grids grids_;
   Increments increments_;
+  smt::GroundTruth groundTruth_;
   std::optional<Place> place_;
   std::set<Place> rounded_; // by roundAlways()
   std::vector<TakenAsSmall> exact_;
@@ -389,26 +417,25 @@ private:
   bool assumesTyped_ = true; // what is read at the start is taken as typed
   bool tooLarge_ = false;
   bool moved_ = false;
+  std::optional<Value> skipShare_ = {}; // of the skip move that is made, in a run on given readings
 };
 
 /// An expression of a contract is evaluated in doubles.  Its whole numbers are exact, however large.
 class ContractArithmetic {
 public:
   explicit ContractArithmetic(SymbolicInterpretation &interpretation)
-      : interpretation_(interpretation),
-        before_(interpretation.roundResults(SymbolicInterpretation::Rounds::AsDoubles)),
+      : interpretation_(interpretation), rounding_(interpretation, SymbolicInterpretation::Rounds::AsDoubles),
         exact_(interpretation.takeExactResults()), wasContract_(interpretation.readContract(true)) {}
   ContractArithmetic(const ContractArithmetic &) = delete;
   ContractArithmetic &operator=(const ContractArithmetic &) = delete;
   ~ContractArithmetic() {
-    interpretation_.roundResults(before_);
     interpretation_.restoreExactResults(std::move(exact_));
     interpretation_.readContract(wasContract_);
   }
 
 private:
   SymbolicInterpretation &interpretation_;
-  SymbolicInterpretation::Rounds before_;
+  SymbolicInterpretation::Rounding rounding_;
   std::vector<TakenAsSmall> exact_;
   bool wasContract_;
 };
@@ -417,17 +444,12 @@ private:
 class ProgramArithmetic {
 public:
   ProgramArithmetic(SymbolicInterpretation &interpretation, Place place)
-      : interpretation_(interpretation),
-        before_(interpretation.roundResults(SymbolicInterpretation::Rounds::AsDialect)) {
+      : rounding_(interpretation, SymbolicInterpretation::Rounds::AsDoubles) {
     interpretation.executeAt(place);
   }
-  ProgramArithmetic(const ProgramArithmetic &) = delete;
-  ProgramArithmetic &operator=(const ProgramArithmetic &) = delete;
-  ~ProgramArithmetic() { interpretation_.roundResults(before_); }
 
 private:
-  SymbolicInterpretation &interpretation_;
-  SymbolicInterpretation::Rounds before_;
+  SymbolicInterpretation::Rounding rounding_;
 };
 
 /// An arbitrary state at the start: each part is a variable of its own.

@@ -52,13 +52,23 @@ bool alignAll(SymbolicInterpretation &interpretation, SymbolicState &a, Symbolic
   return haveSameCalls;
 }
 
-SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
+SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) { return readOf(variable, Sort::Real); }
+
+SymbolicValue SymbolicInterpretation::signalRead(std::uint32_t variable, double least, double most) {
+  const Value read = readOf(variable, Sort::Int);
+  if (!readings_ || isContract_)
+    facts_.push_back(store_.logicalAnd(store_.lessOrEqual(store_.number(Number::fromDouble(least)), read.number),
+                                       store_.lessOrEqual(read.number, store_.number(Number::fromDouble(most)))));
+  return read;
+}
+
+SymbolicValue SymbolicInterpretation::readOf(std::uint32_t variable, Sort sort) {
   if (readings_ && !isContract_) {
     const std::vector<TermId> &script = (*readings_)[variable];
     const std::size_t taken = taken_[variable]++;
     return of(script.empty() ? store_.number(Number(0)) : script[std::min(taken, script.size() - 1)]);
   }
-  const TermId number = fresh(fmt::format("read of #{}", variable), Sort::Real);
+  const TermId number = fresh(fmt::format("read of #{}", variable), sort);
   if (!isContract_)
     inputReads_.push_back({place_, variable, number});
   return of(number);

@@ -85,6 +85,12 @@ std::optional<Error> addReadings(const std::string &text, const Project &program
   if (script.empty())
     return Error{fmt::format("--input: `{}` is not of the form #1000=0,0,1", text)};
   const std::string_view name = trimmed(std::string_view(text).substr(0, equals));
+  if (name == "skip") {
+    if (!std::ranges::all_of(script, [](double share) { return 0 <= share && share <= 1; }))
+      return Error{fmt::format("--input: `{}` is not of the form skip=0.5,1: shares of the way, from 0 to 1", text)};
+    given.readings.set(kSkipShare, std::move(script));
+    return std::nullopt;
+  }
   const auto variable = variableFrom(*programs.set, name);
   const bool isNamed = variable && isReadByName(*programs.set, programs.dialect(), *variable);
   if (!variable || (!isNamed && (*variable >= kFirstNamedVariable || !isInput(programs.dialect(), *variable))))
@@ -263,8 +269,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
          "what the register of an offset holds for G41 and G42: D1=5; of a lathe R1=0.8 and T1=3 (may be repeated)")
       ->type_name("REGISTER=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--input", input.readings,
-                 "numbers that the reads of an input give in order; the last stays: \"#1000=0,0,1\" (may be repeated)")
+  app.add_option(
+         "--input", input.readings,
+         "numbers that the reads of an input give in order; the last stays: \"#1000=0,0,1\"; skip=0.5: the share of "
+         "its way after which the signal of a G31 comes (may be repeated)")
       ->type_name("NAME=VALUES")
       ->allow_extra_args(false);
   app.add_option("--start", input.start, "position of the tool at the start: X0 Y0 Z5")->type_name("POSITION");

@@ -67,6 +67,7 @@ private:
             {"ifPromising", obligation.promising},
             {"ifUnchanged", obligation.unchanged},
             {"ifPassesAtMost", obligation.takesFewPasses ? Json(prove::kMostPasses) : Json()},
+            {"ifOffsetOfTool", obligation.offsetIsOfTool},
             {"bound", orNull(verdict.bound())},
             {"margin", verdict.margin() ? Json(*verdict.margin()) : Json()},
             {"tolerance", obligation.tolerance ? Json(*obligation.tolerance) : Json()},

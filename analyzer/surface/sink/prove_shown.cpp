@@ -167,7 +167,7 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     for (const double reading : script)
       numbers += (numbers.empty() ? "" : ",") + shortest(reading);
     result.readings.emplace_back(shown.substr(1), script);
-    result.options += " --input " + quotedWord(shown + "=" + numbers);
+    result.options += " --input " + quotedWord((variable == kSkipShare ? shown.substr(1) : shown) + "=" + numbers);
   }
   result.modal = modalWords(witness.variables.start, file.project->dialect());
   for (const std::string &word : result.modal)
@@ -187,6 +187,20 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
   return result;
 }
 
+constexpr std::string_view kSkipName = "skip"; // of kSkipShare
+
+/// Of each skip move in turn.
+std::string skipText(const std::vector<double> &shares) {
+  std::string text;
+  for (const double share : shares) {
+    const std::string one = share == 1   ? "no skip signal"
+                            : share == 0 ? "the skip signal at once"
+                                         : fmt::format("the skip signal after {} % of the way", shortest(100 * share));
+    text += (text.empty() ? "" : ", then ") + one;
+  }
+  return text;
+}
+
 std::string textOf(const TypedWitness &witness) {
   std::string text = witness.call.value_or("a run of this program");
   std::string_view before = " with ";
@@ -198,7 +212,8 @@ std::string textOf(const TypedWitness &witness) {
     std::string numbers;
     for (const double reading : readings)
       numbers += (numbers.empty() ? "" : ", then ") + shortest(reading);
-    text += fmt::format("{}#{} read as {}", before, name, numbers);
+    text +=
+        std::string(before) + (name == kSkipName ? skipText(readings) : fmt::format("#{} read as {}", name, numbers));
     before = ", ";
   }
   if (const std::string start = startOf(witness); !start.empty())
@@ -253,6 +268,8 @@ std::vector<std::string> assumedIn(const Obligation &obligation) {
     assumed.push_back(fmt::format("if {} {}", listOf(obligation.promising), keeping(obligation)));
   if (obligation.takesFewPasses)
     assumed.emplace_back("if no loop makes more than 10^12 passes");
+  if (obligation.offsetIsOfTool)
+    assumed.emplace_back("if the offset of D is the radius of `@TOOL`");
   return assumed;
 }
 
