@@ -14,18 +14,6 @@ constexpr double kLeastDepth = 2;
 constexpr double kLeastDepthInInches = 0.08;
 constexpr double kLeastDepthInEither = 1;
 
-/// G81 to G85 and G89 drill, tap and bore along Z, also on lathes whose tables do not have them all.
-bool isDrillingCode(const Word &word, const FileContext &context) {
-  if (word.address() != 'G' || !word.isNumber())
-    return false;
-  const Code *code = codeOf(word, context.dialect);
-  if (code && code->action == CodeAction::FaceGroove)
-    return true;
-  const auto number = word.integer();
-  const bool isOfDrilling = number && ((*number >= 81 && *number <= 85) || *number == 89);
-  return isOfDrilling && (!code || code->role == CodeRole::CannedCycle);
-}
-
 class Reader {
 public:
   Reader(ProgramId program, const FileContext &context)
@@ -73,7 +61,7 @@ private:
     if (!isOnAxis || !depth || !depth->isNumber() || findWord(context_.tree, block, 'U'))
       return nullptr;
     for (const Word &word : context_.tree.wordsOf(block))
-      if (isDrillingCode(word, context_))
+      if (drillsAlongZ(word, context_))
         return depth->number().isNegative() ? &word : nullptr;
     const bool isCut = move == TurningMove::Feed && start.x == 0.0 && goesDeep(*depth, start) && !isArcOrThread(block);
     return isCut ? depth : nullptr;
