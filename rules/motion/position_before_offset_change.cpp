@@ -16,7 +16,7 @@ namespace feedhold::rules::position_before_offset_change {
 namespace {
 
 /// What a code does to coordinates; a second code of a kind may take back what the first one did.
-enum class Kind : std::uint8_t { Length, Shift, System };
+enum class Kind : std::uint8_t { Length, Shift, System, Unit };
 
 struct Change {
   NodeId node;
@@ -47,6 +47,8 @@ public:
     noteChange(node, {CodeAction::CoordinateSet, CodeAction::CoordinateSetOff, CodeAction::CoordinateSetSuspend},
                Kind::Shift);
     noteChange(node, {CodeAction::WorkOffset}, Kind::System);
+    noteChange(node, {CodeAction::Inch, CodeAction::Metric}, Kind::Unit);
+    noteZero(node);
     if (!view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) ||
         view_.findAction(node, {CodeAction::MachineMove}))
       return;
@@ -70,10 +72,13 @@ public:
                                   context.quoted(change->word->span())),
            .span = use.word->span(),
            .labels = {{context.tree.expressions[saved->value].span, "saved here"},
-                      {change->word->span(), "coordinates count from another zero from here"}},
-           .notes = {"if the offset changes, the number that was saved is another place now: the tool may go into the "
-                     "part",
-                     fmt::format("save the position behind {}", context.quoted(change->word->span()))}});
+                      {change->word->span(), change->kind == Kind::Unit
+                                                 ? "coordinates are in another unit from here"
+                                                 : "coordinates count from another zero from here"}},
+           .notes = {
+               "where that changes coordinates, the number that was saved is another place: the tool may go into the "
+               "part",
+               fmt::format("save the position behind {}", context.quoted(change->word->span()))}});
     }
   }
 
@@ -88,6 +93,21 @@ private:
     const Word *word = view_.mayDo(node, actions) ? view_.findAction(node, actions) : nullptr;
     if (word && std::ranges::find(changes_, word, &Change::word) == changes_.end())
       changes_.push_back({node, word, kind});
+  }
+
+  /// `G10 L20 P0 Z0`: of the system in force.
+  void noteZero(NodeId node) {
+    const Word *code = view_.mayHave(node, 'L')
+                           ? findCode(context_.tree, view_.node(node).block, context_.dialect, CodeRole::DataSetting)
+                           : nullptr;
+    const auto numberIn = [&](char address) {
+      const Word *word = findWord(context_.tree, view_.node(node).block, address);
+      return word && word->isNumber() ? word->integer() : std::nullopt;
+    };
+    const auto list = code ? numberIn('L') : std::nullopt;
+    if ((list == 2 || list == 20) && numberIn('P') == 0 &&
+        std::ranges::find(changes_, code, &Change::word) == changes_.end())
+      changes_.push_back({node, code, Kind::Shift});
   }
 
   /// The assignment of a position on the axis of the word, whose value it moves to, or to a distance from it.
@@ -117,13 +137,13 @@ private:
   /// The change between the two, where there is only one of its kind.
   const Change *onlyChange(const FlowFacts &facts, const Saved &saved, const Use &use) const {
     const Change *found = nullptr;
-    std::array<int, 3> counts{};
+    std::array<int, 4> counts{};
     for (const Change &change : changes_) {
       const auto there = definitionsOf(facts, saved.variable, change.node);
-      if (!there || !there->areOnly(saved.node) || !concerns(change, use.word->address()))
+      if (change.node >= use.node || !there || !there->areOnly(saved.node) || !concerns(change, use.word->address()))
         continue;
       ++counts[static_cast<std::size_t>(change.kind)];
-      if (!takesTool(change) && change.node < use.node && isPassedAlways(facts, change.node, use.node) && !found)
+      if (!takesTool(change) && isPassedAlways(facts, change.node, use.node) && !found)
         found = &change;
     }
     return found && counts[static_cast<std::size_t>(found->kind)] == 1 ? found : nullptr;
@@ -132,12 +152,17 @@ private:
   bool takesTool(const Change &change) const {
     return change.kind == Kind::Length && codeOf(*change.word, context_.dialect)->action != CodeAction::LengthOff;
   }
-  /// `G92 X0` leaves Z as it is, and a tool length that of X and Y.
+  /// `G92 X0` leaves Z as it is, and a tool length that of X and Y.  G21 is mostly in force already, where the text has
+  /// no G20.
   bool concerns(const Change &change, char axis) const {
     const Code *code = codeOf(*change.word, context_.dialect);
     if (change.kind == Kind::Length)
       return axis == 'Z';
-    return code->action != CodeAction::CoordinateSet ||
+    if (change.kind == Kind::Unit)
+      return std::ranges::any_of(changes_, [&](const Change &other) {
+        return other.kind == Kind::Unit && codeOf(*other.word, context_.dialect)->action != code->action;
+      });
+    return (code->action != CodeAction::CoordinateSet && code->role != CodeRole::DataSetting) ||
            findWord(context_.tree, context_.tree.blockAt(change.word->span().begin), axis) != nullptr;
   }
 
@@ -156,7 +181,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 extern const Rule positionBeforeOffsetChange;
 const Rule positionBeforeOffsetChange{
     .info = {"position-before-offset-change", Category::Motion, Severity::Warning,
-             "Reports an absolute move to a position that LinuxCNC saved before the offset was changed."},
+             "Reports an absolute move to a position that LinuxCNC saved before the offset or the unit was changed."},
     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::position_before_offset_change
