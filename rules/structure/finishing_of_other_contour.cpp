@@ -38,7 +38,8 @@ public:
   }
 
 private:
-  /// The roughing cycle with the same first block, where none has the same last one.
+  /// The roughing cycle with the same first block, where none has the same last one, and no other cycle finishes to its
+  /// end: a contour may be finished in two parts.
   const Contour *roughedToOtherEnd(const Contour &finished) const {
     const Contour *other = nullptr;
     for (const Contour &contour : contours_) {
@@ -48,7 +49,10 @@ private:
         return nullptr;
       other = &contour;
     }
-    return other;
+    const bool isInParts = other && std::ranges::any_of(contours_, [&](const Contour &contour) {
+                             return isFinishing(contour, context_) && contour.last == other->last;
+                           });
+    return isInParts ? nullptr : other;
   }
 
   /// The contour roughed last, which no cycle finishes, where this one finishes another contour for the second time.
