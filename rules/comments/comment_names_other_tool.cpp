@@ -73,14 +73,20 @@ struct Described {
 };
 using ByTool = std::map<std::uint32_t, std::vector<Described>>;
 
-/// `T0101 (TURNING TOOL R0.4)`.  T0 is none.
+/// `T0101 (TURNING TOOL R0.4)`, `T1 M06 (MILL 20)`: not a tool that is only made ready.
+bool changesTool(BlockId block, const FileContext &context) {
+  return context.dialect.machine == MachineKind::Turning ||
+         findAction(context.tree, block, context.dialect, {CodeAction::ToolChange});
+}
+
+/// T0 is none.
 ByTool describedTools(const Program &program, const FileContext &context) {
   ByTool tools;
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     const Word *tool = findWord(context.tree, block, 'T');
     const auto number = tool ? tool->integer() : std::nullopt;
     const auto comments = context.tree.commentsOf(block);
-    if (number && *number != 0 && comments.size() == 1)
+    if (number && *number != 0 && comments.size() == 1 && changesTool(block, context))
       tools[static_cast<std::uint32_t>(*number)].push_back({tool, comments.front().span});
   }
   return tools;

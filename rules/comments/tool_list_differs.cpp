@@ -52,9 +52,10 @@ std::optional<std::int64_t> toolOf(std::string_view entry, const FileContext &co
   for (; at < text.size() && (isBlank(text[at]) || text[at] == ':' || text[at] == '-' || text[at] == '='); ++at)
     isSeparated = isSeparated || !isBlank(text[at]);
   const std::string_view name = text.substr(at);
+  const bool isWord = first > 2; // `TOOL 10 MM` is a size, `TOOL 10 = DRILL` a tool
   const bool isNamed = at > end && !name.empty() &&
                        (isLetter(name.front()) || (isDigit(name.front()) && (isSeparated || hasLetter(name))));
-  return isNamed ? toolBy(text.substr(first, end - first), context) : std::nullopt;
+  return isNamed && (!isWord || isSeparated) ? toolBy(text.substr(first, end - first), context) : std::nullopt;
 }
 
 /// `(T01 FACE MILL, T02 SPOT DRILL)`: the parts of a comment.
