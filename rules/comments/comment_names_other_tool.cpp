@@ -1,11 +1,16 @@
-// comment-names-other-tool: `T5M6(T6 DRILL)`.
+// comment-names-other-tool: `T5M6(T6 DRILL)`; `T0101 (ROUGHER R0.4)`, `T0101 (PARTING TOOL W3)` and
+// `T0202 (PARTING TOOL W3)`.
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace feedhold::rules::comment_names_other_tool {
 namespace {
@@ -61,12 +66,73 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
                  "find out which tool is meant, and correct the word or the comment"}});
 }
 
+/// A tool call with the remark beside it.
+struct Described {
+  const Word *tool;
+  Span remark;
+};
+using ByTool = std::map<std::uint32_t, std::vector<Described>>;
+
+/// `T0101 (TURNING TOOL R0.4)`, `T1 M06 (MILL 20)`: not a tool that is only made ready.
+bool changesTool(BlockId block, const FileContext &context) {
+  return context.dialect.machine == MachineKind::Turning ||
+         findAction(context.tree, block, context.dialect, {CodeAction::ToolChange});
+}
+
+/// T0 is none.
+ByTool describedTools(const Program &program, const FileContext &context) {
+  ByTool tools;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    const Word *tool = findWord(context.tree, block, 'T');
+    const auto number = tool ? tool->integer() : std::nullopt;
+    const auto comments = context.tree.commentsOf(block);
+    if (number && *number != 0 && comments.size() == 1 && changesTool(block, context))
+      tools[static_cast<std::uint32_t>(*number)].push_back({tool, comments.front().span});
+  }
+  return tools;
+}
+
+/// It has a size: names of operations, such as FINISH OD, fit several tools.
+bool namesSize(std::string_view remark) { return std::ranges::any_of(remark, isDigit); }
+
+/// The other tool whose only remark is the one of the call.
+const Described *otherWithRemark(const Described &call, const ByTool &tools, const FileContext &context) {
+  for (const auto &[number, described] : tools) {
+    const auto isAlike = [&](const Described &other) {
+      return context.text(other.remark) == context.text(call.remark);
+    };
+    if (described.front().tool->integer() != call.tool->integer() && std::ranges::all_of(described, isAlike))
+      return &described.front();
+  }
+  return nullptr;
+}
+
+/// A tool is called with its remark, and then with that of another tool.
+void checkProgram(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const ByTool tools = describedTools(context.model.programs[program], context);
+  for (const auto &[number, calls] : tools) {
+    const auto differs = std::ranges::find_if(
+        calls, [&](const Described &call) { return context.text(call.remark) != context.text(calls.front().remark); });
+    if (differs == calls.end() || !namesSize(context.text(calls.front().remark)) ||
+        !namesSize(context.text(differs->remark)))
+      continue;
+    if (const Described *other = otherWithRemark(*differs, tools, context))
+      reporter.report(
+          {.message = fmt::format("{} changes the tool, but its comment describes {}",
+                                  context.quoted(differs->tool->span()), context.quoted(other->tool->span())),
+           .span = differs->tool->span(),
+           .labels = {{calls.front().remark, "this tool"}, {other->remark, "the tool of the comment"}},
+           .notes = {"the work is done with another tool than the one that was meant",
+                     "find out which tool is meant, and correct the word or the comment"}});
+  }
+}
+
 } // namespace
 
 extern const Rule commentNamesOtherTool;
-const Rule commentNamesOtherTool{
-    .info = {"comment-names-other-tool", Category::Comment, Severity::Warning,
-             "Reports a tool change beside a comment that begins with the number of another tool."},
-    .hooks = {.block = check}};
+const Rule commentNamesOtherTool{.info = {"comment-names-other-tool", Category::Comment, Severity::Warning,
+                                          "Reports a tool change whose comment begins with the number of another tool, "
+                                          "or describes another tool of the program."},
+                                 .hooks = {.program = checkProgram, .block = check}};
 
 } // namespace feedhold::rules::comment_names_other_tool

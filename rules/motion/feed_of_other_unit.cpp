@@ -1,6 +1,6 @@
 // feed-of-other-unit: `G01 X30. F0.2` and `G01 Z-40. F200` in one lathe program, and no code of the feed mode; `G98`
 // and then `F0.2`.
-#include "rules/motion/tool_sections.h"
+#include "rules/motion/turning_walk.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +13,9 @@ namespace {
 /// Feeds that only fit one of the units: up to a millimetre in a revolution, or from 20 in a minute.
 constexpr std::int64_t kMostPerRevolution = 1;
 constexpr std::int64_t kLeastPerMinute = 20;
+/// More than any tool of a lathe takes off in a revolution, where it goes into the part.
+constexpr double kMostOfLathe = 5;
+constexpr double kMostOfLatheInInches = 0.5;
 /// Below the pitches of all taps, in millimetres and in inches, and above them.
 constexpr double kNoPitch = 0.1;
 constexpr double kNoPitchInInches = 0.004;
@@ -80,6 +83,7 @@ void checkMixed(ProgramId program, const FileContext &context, const Reporter &r
 /// What the text of a program says of units, taken as a whole.
 struct Units {
   bool isMetric = false; // G21 and no G20
+  bool isInch = false;   // G20 and no G21
   bool isHigh = false;   // no G20, and heights that no machine has in inches
   bool hasMode = false;  // some code of the feed mode
   bool isMixed = false;  // another one than that of feed per minute
@@ -113,6 +117,7 @@ Units unitsOf(ProgramId program, const FileContext &context) {
     units.isOfMill = units.isOfMill && !does(CodeAction::ConstantSurface);
   }
   units.isMetric = hasMetric && !hasInch;
+  units.isInch = hasInch && !hasMetric;
   units.isHigh = units.isHigh && !hasInch;
   units.isOfMill = units.isOfMill && movesInY;
   return units;
@@ -138,15 +143,15 @@ public:
       isPerMinute_ = action == CodeAction::FeedPerMinute;
       isPerRevolution_ = action == CodeAction::FeedPerRevolution;
     }
-    if (isHidden || meansOwnWords(context_.tree, block, context_.dialect))
+    if (isHidden || (meansOwnWords(context_.tree, block, context_.dialect) && !isDrilling(block)))
       return;
     if (findAction(context_.tree, block, context_.dialect, {CodeAction::CycleTap, CodeAction::CycleTapLeft}))
       judgeTap(block, reporter);
-    if (isThread(block))
+    if (isThread(block) && !isDrilling(block))
       return;
     for (const Word &word : context_.tree.wordsOf(block))
-      if (word.address() == 'F' && word.isNumber() && word.has(Word::kPoint))
-        judge(word, reporter);
+      if (word.address() == 'F' && word.isNumber())
+        judgeFeed(word, block, reporter);
   }
 
 private:
@@ -169,10 +174,35 @@ private:
            findTurningCycle(context_.tree, block, context_.dialect) ||
            (!units_.isOfMill && findCode(context_.tree, block, context_.dialect, CodeRole::CannedCycle));
   }
+  /// Of a lathe, by a cycle; the F of a tap is its pitch.
+  bool isDrilling(BlockId block) const {
+    return context_.dialect.machine == MachineKind::Turning &&
+           std::ranges::any_of(context_.tree.wordsOf(block),
+                               [&](const Word &word) { return word.integer() != 84U && drillsAlongZ(word, context_); });
+  }
   /// So slow that it would take a minute for a millimetre, or for some hundredths of an inch.
   bool isCreep(const Decimal &feed) const {
     return !feed.isZero() && !feed.isNegative() &&
            feed < (units_.isMetric || (mode_ && units_.isHigh) ? Decimal(1, 0) : Decimal(5, 2));
+  }
+  /// Without a point, a number is what it looks like only beside feeds that have one.
+  void judgeFeed(const Word &word, BlockId block, const Reporter &reporter) {
+    if (word.has(Word::kPoint))
+      judge(word, reporter);
+    const bool isOfLathe = isPerRevolution_ && context_.dialect.machine == MachineKind::Turning;
+    if (isOfLathe && goesIn(block) && (word.has(Word::kPoint) || (hasSmallFeed_ && isLarge(word))))
+      judgeOfLathe(word, reporter);
+    hasSmallFeed_ = hasSmallFeed_ || (word.has(Word::kPoint) && word.number() <= Decimal(kMostPerRevolution, 0));
+  }
+  static bool isLarge(const Word &word) { return word.number() >= Decimal(kLeastPerMinute, 0); }
+  /// Back at feed, the tool may be fast.
+  bool goesIn(BlockId block) const {
+    const Word *depth = findWord(context_.tree, block, 'Z');
+    return depth && depth->isNumber() && depth->number().isNegative();
+  }
+  void judgeOfLathe(const Word &word, const Reporter &reporter) {
+    if (!told_ && word.number().toDouble() >= (units_.isInch ? kMostOfLatheInInches : kMostOfLathe))
+      tell(word, "per revolution", "by its size this is a feed per minute: the tool runs into the part", reporter);
   }
   void judge(const Word &word, const Reporter &reporter) {
     if (told_)
@@ -227,6 +257,7 @@ private:
   std::optional<double> speed_;
   bool isPerMinute_ = false;
   bool isPerRevolution_ = false;
+  bool hasSmallFeed_ = false;
   bool told_ = false;
 };
 

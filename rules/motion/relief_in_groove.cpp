@@ -6,12 +6,21 @@
 namespace feedhold::rules::relief_in_groove {
 namespace {
 
-void checkCycle(BlockId block, const FileContext &context, const Reporter &reporter) {
+/// `G75 X-1. Z0.15` from Z2: it faces or cuts off, and beside its cuts there is no wall.
+bool cutsAcrossFace(const Word &cycle, const TurningPoint &start, const Word &across, const FileContext &context) {
+  const bool isToCentre = across.isNumber() && (across.number().isZero() || across.number().isNegative());
+  const bool startsInFront = start.z && *start.z > 0;
+  return codeOf(cycle, context.dialect)->action == CodeAction::DiameterGroove && (isToCentre || startsInFront);
+}
+
+void checkCycle(BlockId block, const TurningPoint &start, const FileContext &context, const Reporter &reporter) {
   const Word *cycle =
       findAction(context.tree, block, context.dialect, {CodeAction::FaceGroove, CodeAction::DiameterGroove});
   const Word *relief = cycle ? findWord(context.tree, block, 'R') : nullptr;
-  const bool isGroove = findWord(context.tree, block, 'X') && findWord(context.tree, block, 'Z');
-  if (!relief || !isGroove || !relief->isNumber() || relief->number().isZero())
+  const Word *across = findWord(context.tree, block, 'X');
+  const bool isGroove = across && findWord(context.tree, block, 'Z');
+  if (!relief || !isGroove || !relief->isNumber() || relief->number().isZero() ||
+      cutsAcrossFace(*cycle, start, *across, context))
     return;
   reporter.report(
       {.message = fmt::format("{} moves the tool sideways at the bottom of each cut", context.quoted(relief->span())),
@@ -26,8 +35,8 @@ void checkCycle(BlockId block, const FileContext &context, const Reporter &repor
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.behaviour.oneBlockCycles)
     return;
-  forEachTurningCycle(program, context, [&](BlockId block, const TurningPoint &, const TurningWalk &) {
-    checkCycle(block, context, reporter);
+  forEachTurningCycle(program, context, [&](BlockId block, const TurningPoint &start, const TurningWalk &) {
+    checkCycle(block, start, context, reporter);
   });
 }
 

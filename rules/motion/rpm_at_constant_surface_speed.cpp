@@ -1,4 +1,4 @@
-// rpm-at-constant-surface-speed: `G96`, `M03 S1000 (1000 RPM)`.
+// rpm-at-constant-surface-speed: `G96`, `M03 S1000 (1000 RPM)`; `G96 S180`, `G96 S6000`, where `G50 S6000` was meant.
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
@@ -67,10 +67,63 @@ void tell(const Word &speed, const Word &mode, const FileContext &context, const
                              "program `G97` for revolutions per minute, or the surface speed as S"}});
 }
 
+/// Surface speeds that no lathe cuts with, in m/min, and in ft/min; a text that does not name its units may be in
+/// either.
+constexpr double kFastest = 2500;
+constexpr double kFastestInFeet = 8000;
+/// Directly behind another surface speed, a number that looks like a limit of the spindle.
+constexpr double kLeastLimit = 1000;
+constexpr double kLeastFactor = 5;
+
+bool isMetric(const Program &program, const FileContext &context) {
+  bool isMetric = false;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    if (findAction(context.tree, block, context.dialect, {CodeAction::Inch}))
+      return false;
+    isMetric = isMetric || findAction(context.tree, block, context.dialect, {CodeAction::Metric});
+  }
+  return isMetric;
+}
+
+/// The S of a `G96 S..`, as a number.
+const Word *surfaceSpeedIn(BlockId block, const FileContext &context) {
+  const Word *code = findAction(context.tree, block, context.dialect, {CodeAction::ConstantSurface});
+  const Word *speed = code ? findWord(context.tree, block, 'S') : nullptr;
+  return speed && speed->isNumber() ? speed : nullptr;
+}
+
+void tellSize(const Word &speed, const Word *before, const FileContext &context, const Reporter &reporter) {
+  Diagnostic diagnostic{.message = fmt::format("{} is no surface speed by its size", context.quoted(speed.span())),
+                        .span = speed.span(),
+                        .notes = {"the spindle runs at its highest speed, or at its limit, on all diameters",
+                                  "program `G97` for revolutions per minute, or `G50` for the limit of the spindle"}};
+  if (before)
+    diagnostic.labels = {{before->span(), "the surface speed that it replaces"}};
+  reporter.report(std::move(diagnostic));
+}
+
+/// Once in a program.
+void checkSizes(const Program &its, const FileContext &context, const Reporter &reporter) {
+  const double fastest = isMetric(its, context) ? kFastest : kFastestInFeet;
+  const Word *before = nullptr; // in the block above
+  for (BlockId block = its.first; block < its.last; block = block.next()) {
+    if (isEmpty(context.tree, block))
+      continue;
+    const Word *speed = surfaceSpeedIn(block, context);
+    const double size = speed ? speed->number().toDouble() : 0;
+    const bool replaces = before && size >= kLeastLimit && size >= kLeastFactor * before->number().toDouble();
+    if (size > fastest || replaces)
+      return tellSize(*speed, replaces ? before : nullptr, context, reporter);
+    before = speed;
+  }
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const Word *constant = nullptr; // the G96 in force
   const Word *speed = nullptr;    // an S in revolutions that a G96 behind it may take
   const Program &its = context.model.programs[program];
+  if (context.dialect.machine == MachineKind::Turning)
+    checkSizes(its, context, reporter);
   for (BlockId block = its.first; block < its.last; block = block.next()) {
     const bool isUnclear = !context.model.callsIn(block, block.next()).empty() ||
                            !context.model.jumpsIn(block, block.next()).empty() ||
@@ -99,9 +152,9 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 } // namespace
 
 extern const Rule rpmAtConstantSurfaceSpeed;
-const Rule rpmAtConstantSurfaceSpeed{
-    .info = {"rpm-at-constant-surface-speed", Category::Motion, Severity::Warning,
-             "Reports an `S` that its comment gives in revolutions per minute while `G96` is active."},
-    .hooks = {.program = check}};
+const Rule rpmAtConstantSurfaceSpeed{.info = {"rpm-at-constant-surface-speed", Category::Motion, Severity::Warning,
+                                              "Reports an `S` under `G96` that is given in revolutions per minute, as "
+                                              "its comment says, or as its size shows."},
+                                     .hooks = {.program = check}};
 
 } // namespace feedhold::rules::rpm_at_constant_surface_speed

@@ -46,6 +46,17 @@ bool cutsThread(const Code &code) {
          code.action == CodeAction::ThreadPasses;
 }
 
+bool drillsAlongZ(const Word &word, const FileContext &context) {
+  if (word.address() != 'G' || !word.isNumber())
+    return false;
+  const Code *code = codeOf(word, context.dialect);
+  if (code && code->action == CodeAction::FaceGroove)
+    return true;
+  const auto number = word.integer();
+  const bool isOfDrilling = number && ((*number >= 81 && *number <= 85) || *number == 89);
+  return isOfDrilling && (!code || code->role == CodeRole::CannedCycle);
+}
+
 std::optional<SpeedLimit> speedLimitIn(BlockId block, const FileContext &context) {
   // Programs write the limit of another code system than that of their other codes.
   const bool isAlone = !namesAxis(context.tree, block);

@@ -26,6 +26,9 @@ enum class TurningMove : std::uint8_t {
 /// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
 bool cutsThread(const Code &code);
 
+/// G81 to G85 and G89 drill, tap and bore along Z, on lathes whose tables do not have them all, too; so does G74 at X0.
+bool drillsAlongZ(const Word &word, const FileContext &context);
+
 /// `G50 S2500`, `G92 S2500`: the limit of the spindle.
 struct SpeedLimit {
   const Word *code;

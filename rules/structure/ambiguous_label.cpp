@@ -25,11 +25,19 @@ struct Seekers {
 };
 using SeekersByNumber = std::unordered_map<std::uint32_t, Seekers>;
 
+/// `N100` twice and no N200: the second one is the end with a wrong number, and what is missing is reported as such.
+bool isPartMissing(const Jump &jump, const FileContext &context) {
+  const auto parts = context.model.jumpsIn(jump.block, jump.block.next());
+  return std::ranges::any_of(parts, [](const Jump &part) {
+    return (part.kind == JumpKind::ContourFrom || part.kind == JumpKind::ContourTo) && !part.target;
+  });
+}
+
 SeekersByNumber seekersOf(ProgramId program, const FileContext &context) {
   SeekersByNumber seekers;
   for (const Jump &jump : context.model.jumpsOf(program)) {
     const auto number = targetNumber(jump);
-    if (!number || !jump.target)
+    if (!number || !jump.target || isPartMissing(jump, context))
       continue;
     if (jump.kind == JumpKind::Goto)
       seekers[*number].gotos.push_back(&jump);
