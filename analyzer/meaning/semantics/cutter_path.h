@@ -6,8 +6,8 @@
 //   off -> waiting (G41 or G42 in force) -> on (from the first move in the plane: start-up) -> ending (G40 or D0)
 //       -> off (behind the first move in the plane: cancel)
 //
-// The line before a corner (,C ,R), the corner, and the line behind it are three blocks to the control, which has read
-// all of them when it makes the first.  They are told together, with the second line.
+// The line before a corner (,C ,R), the corner and the line behind it are three blocks, which the control has read when
+// it makes the first.  They are told together, with the second line.
 //
 // What is not followed (another side or offset inside, a vector by I J K, G28 inside ..) leaves the path unknown up to
 // the end of the first move in the plane without compensation.
@@ -17,10 +17,8 @@
 //   moveOf(number)               the programmed move
 //   follow(number, moves, tip)   what the tool's centre makes of it; how far its tip is from there, along X, Y and Z
 //   leave(number, why)           that is not known
-//   areInOneSpace(number, number)  the same zero point and units
-//   shift(value, length)
-//   knowsReadAhead(dialect)      how many blocks the control reads ahead; else a corner that it does not foresee is not
-//                                followed
+//   areInOneSpace(number, number), shift(value, length)  the same zero point and units; a coordinate
+//   knowsReadAhead(dialect)      how many blocks the control reads ahead; else corners beyond that are not followed
 //   isOn(switch)                 a setting of the machine
 //   standing(vector, tolerance)  of no length
 //   refuses(truth, alarm, began) whether the control stops.  A host that cannot tell keeps that it may, and says no
@@ -102,8 +100,7 @@ private:
     Vector from; // offset of the centre at its start
     Place place;
     std::size_t depth;
-    std::size_t idle = 0;                 // blocks behind it that do not move in the plane
-    std::size_t calls = 0;                // and calls and returns, which a control may count
+    std::size_t idle = 0, calls = 0;      // blocks behind it that do not move in the plane; calls and returns
     bool mayBeLast = false;               // to the control, which perhaps reads no further
     std::vector<std::size_t> behind = {}; // their moves
   };
@@ -129,8 +126,14 @@ private:
   void goOn(Host &host, std::size_t index, const At &at);
   void cancel(Host &host, std::size_t index, const At &at);
   void idle(Host &host, const Block &block);
-  bool isBeyondReading(std::size_t idle) const;
-  void mayBeBeyondReading();
+  bool isBeyondReading(std::size_t idle) const {
+    const std::size_t most = dialect_->behaviour.cutterBlocks;
+    return most != 0 && idle > most - 2;
+  }
+  /// It is not known whether controls count calls and returns.
+  void mayBeBeyondReading() {
+    pending_->mayBeLast = pending_->mayBeLast || isBeyondReading(pending_->idle + pending_->calls);
+  }
 
   bool isInPlane(Host &host, const MoveOf &move) const;
   bool refusesArc(Host &host, const Element &element, const At &block);
@@ -433,24 +436,13 @@ template <typename Host> void CutterPath<Host>::idle(Host &host, const Block &bl
   if (!pending_ || phase_ != Phase::On)
     return;
   ++pending_->idle;
-  const bool isRead = dialect_->behaviour.cutterBlocks != 0;
-  if (!isRead || !(block.stopsReading || block.namesPlane || isBeyondReading(pending_->idle)))
-    return mayBeBeyondReading();
-  if (block.stopsReading || host.knowsReadAhead(*dialect_))
+  const bool isSeen = !(block.stopsReading || block.namesPlane || isBeyondReading(pending_->idle));
+  if (isSeen || dialect_->behaviour.cutterBlocks == 0)
+    mayBeBeyondReading();
+  else if (block.stopsReading || host.knowsReadAhead(*dialect_))
     failReading(host);
   else
     pending_->mayBeLast = true;
-}
-
-/// A control that reads a number of blocks ahead does not come to the next one that moves.
-template <typename Host> bool CutterPath<Host>::isBeyondReading(std::size_t idle) const {
-  const std::size_t most = dialect_->behaviour.cutterBlocks;
-  return most != 0 && idle > most - 2;
-}
-
-/// It is not known whether controls count calls and returns.
-template <typename Host> void CutterPath<Host>::mayBeBeyondReading() {
-  pending_->mayBeLast = pending_->mayBeLast || isBeyondReading(pending_->idle + pending_->calls);
 }
 
 template <typename Host> void CutterPath<Host>::passCall() {
