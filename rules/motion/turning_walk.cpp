@@ -82,9 +82,11 @@ bool isOfBore(const std::vector<TurningPoint> &corners) {
 TurningWalk::TurningWalk(ProgramId program, const FileContext &context)
     : context_(context), hidden_(program, context), contours_(contoursOf(program, context)) {}
 
+/// Behind a cycle the control goes on after the contour that stands there: blocks before it are passed over, too.
 bool TurningWalk::isInContour(BlockId block) const {
-  return std::ranges::any_of(
-      contours_, [&](const Contour &contour) { return contour.standsBehindCycle() && contour.contains(block); });
+  return std::ranges::any_of(contours_, [&](const Contour &contour) {
+    return contour.standsBehindCycle() && contour.cycle->block < block && block <= contour.last;
+  });
 }
 
 std::optional<double> TurningWalk::coordinate(const Word &word) const {

@@ -79,7 +79,8 @@ void LineScanner::scanPercent() {
   ++at_;
   hasWord_ = true;
   const char next = peek();
-  if (beginsUpper(rest(), "_N_")) {
+  const bool isOldSinumerik = beginsUpper(rest(), "MPF") || beginsUpper(rest(), "SPF"); // 810, 820: `%MPF1005`
+  if (beginsUpper(rest(), "_N_") || (isOldSinumerik && rest().size() > 3 && isDigit(rest()[3]))) {
     count(TextSignal::SinumerikFile);
   } else if (beginsUpper(rest(), "@MACRO")) {
     count(TextSignal::SyntecMarker);

@@ -527,7 +527,7 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
     return found;
   };
   if (options.merging == PathMerging::No)
-    if (Exploration found = explored(first, PathMerging::No, left / 10); !found.isTooLarge)
+    if (Exploration found = explored(first, PathMerging::No, left / 8); !found.isTooLarge)
       return found;
   if (options.merging != PathMerging::Forget)
     if (Exploration merged = explored(options, PathMerging::Yes, left / 10); !merged.isTooLarge)

@@ -48,8 +48,8 @@ public:
       witnesses_->sampleVariants();
       witnesses_->sampleDecimals({});
     }
-    witnesses_->sampleSkips();
     witnesses_->sampleSignals();
+    witnesses_->sampleSkips();
   }
 
   ProgramProof run() {
