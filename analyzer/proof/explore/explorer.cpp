@@ -535,10 +535,6 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
   return explored(options, PathMerging::Forget, left / 3);
 }
 
-} // namespace
-
-namespace {
-
 /// Both.
 LoopHints joined(LoopHints first, LoopHints second) {
   if (!first || !second)

@@ -495,6 +495,7 @@ void proveOfFewPasses(const ProofSubject &subject, ProgramProof &proof) {
         row.verdict = other.verdict;
         row.returning = other.returning;
         row.promising = other.promising;
+        row.offsetIsOfTool = other.offsetIsOfTool;
         row.takesFewPasses = true;
       }
   std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));
@@ -570,6 +571,7 @@ void proveOfUnchanged(const ProofSubject &subject, ProgramProof &proof) {
         row.verdict = other.verdict;
         row.returning = other.returning;
         row.promising = other.promising;
+        row.offsetIsOfTool = other.offsetIsOfTool;
         row.unchanged = true;
       }
   std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));

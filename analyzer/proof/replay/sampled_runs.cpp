@@ -91,6 +91,12 @@ std::optional<std::uint32_t> WitnessSearch::offsetCell(double number) const {
   return cellOf(dialect, memory.geometry.front() + static_cast<std::uint32_t>(number) - 1);
 }
 
+/// Where the setting says so, the register holds the diameter (parameter 5004#2, ODI).
+ConcreteValue WitnessSearch::inRegister(double radius) const {
+  const bool isDiameter = programs_.file(entry_.file).dialect->switches.odi == Switch::On;
+  return ConcreteValue::of(isDiameter ? 2 * radius : radius);
+}
+
 void WitnessSearch::sampleOffsetEnds(const std::vector<OffsetEnd> &ends) {
   constexpr std::size_t kBases = 12; // calls
   const std::size_t known = ends.empty() ? 0 : samples_.size();
@@ -103,7 +109,7 @@ void WitnessSearch::sampleOffsetEnds(const std::vector<OffsetEnd> &ends) {
           end.number ? (cell ? std::vector{*cell} : std::vector<std::uint32_t>()) : offsetsNamed();
       for (const std::uint32_t each : cells)
         if (radius)
-          given.set(each, ConcreteValue::of(*radius));
+          given.set(each, inRegister(*radius));
     }
     keepSample(std::move(given));
   }
@@ -114,7 +120,7 @@ void WitnessSearch::addOffsets(GivenVariables &given, const smt::Model &model) c
     return;
   for (const auto &[number, radius] : offsets_(model))
     if (const auto cell = offsetCell(number); cell && !given.find(*cell))
-      given.set(*cell, ConcreteValue::of(radius));
+      given.set(*cell, inRegister(radius));
 }
 
 void WitnessSearch::sampleSkips() {
@@ -122,6 +128,10 @@ void WitnessSearch::sampleSkips() {
   constexpr double kStart = 0, kEnd = 1;
   static const std::vector<std::vector<double>> kShares = {{0.5},       {0.9},       {0.1},      {kStart},
                                                            {0.5, kEnd}, {kEnd, 0.5}, {0.9, 0.8}, {0.25, 0.75}};
+  // With o-words (RS274NGC) #5070 says whether the signal has come, and a run reads it apart: it may contradict the
+  // share.
+  if (programs_.file(entry_.file).dialect->grammar.oWords)
+    return;
   std::vector<std::size_t> bases;
   for (std::size_t i = 0; i < samples_.size() && bases.size() < kBases; ++i)
     if (samples_[i].result.skips > 0)

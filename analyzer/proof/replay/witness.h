@@ -158,6 +158,7 @@ private:
   std::vector<std::uint32_t> offsetsNamed() const;
   void sampleOffsets();
   std::optional<std::uint32_t> offsetCell(double number) const;
+  ConcreteValue inRegister(double radius) const;
   void addOffsets(GivenVariables &given, const smt::Model &model) const;
   /// What the machine, or a program that is not in the files, gives it is bound by nothing.
   bool readsAnything(std::uint32_t variable) const;
